@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "solver/contact/box_tree.hpp"
 #include "solver/contact/projection.hpp"
 #include "solver/elements/cell_quadrature.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/box_tree.hpp"
 #include "solver/mesh/place.hpp"
 
 namespace comma::solver {

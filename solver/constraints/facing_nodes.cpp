@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "solver/contact/box_tree.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/nearest_node.hpp"
 #include "solver/mesh/place.hpp"
 
 namespace comma::solver {
@@ -20,37 +20,6 @@ std::vector<int> each_once(std::span<const int> nodes) {
   }
   return result;
 }
-
-/// Finds the node of a set that is nearest to a point; of equals, the one given first.
-class NearestNode {
- public:
-  NearestNode(const Mesh& mesh, std::vector<int> nodes) : mesh_(mesh), nodes_(std::move(nodes)), tree_(boxes()) {}
-
-  int operator()(const Eigen::Vector3d& point) const {
-    int best = -1;
-    double least = std::numeric_limits<double>::infinity();
-    tree_.search(point, [&](int item) {
-      const double distance = (place(mesh_, nodes_[item]) - point).norm();
-      if (distance < least || (distance == least && item < best)) {
-        least = distance;
-        best = item;
-      }
-      return least;
-    });
-    return nodes_[best];
-  }
-
- private:
-  std::vector<Box> boxes() const {
-    std::vector<Box> result;
-    for (const int node : nodes_) result.emplace_back(place(mesh_, node));
-    return result;
-  }
-
-  const Mesh& mesh_;
-  std::vector<int> nodes_;
-  BoxTree tree_;
-};
 
 void add_terms(const Mesh& mesh, int node, std::span<const FacingTerm> terms,
                const std::map<int, Eigen::Vector3d>& normals, LinearRelation& relation) {

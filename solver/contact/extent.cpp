@@ -1,6 +1,6 @@
 #include "solver/contact/extent.hpp"
 
-#include "solver/contact/box_tree.hpp"
+#include "solver/mesh/box_tree.hpp"
 
 namespace comma::solver {
 

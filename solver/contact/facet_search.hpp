@@ -8,11 +8,11 @@
 
 #include <Eigen/Dense>
 
-#include "solver/contact/box_tree.hpp"
 #include "solver/contact/definition.hpp"
 #include "solver/contact/faced_facets.hpp"
 #include "solver/contact/normals.hpp"
 #include "solver/contact/projection.hpp"
+#include "solver/mesh/box_tree.hpp"
 #include "solver/mesh/mesh.hpp"
 
 namespace comma::solver {

@@ -10,6 +10,7 @@
 
 #include "solver/error.hpp"
 #include "solver/mesh/groups.hpp"
+#include "solver/mesh/nearest_node.hpp"
 #include "solver/mesh/place.hpp"
 
 namespace comma::solver {
@@ -29,33 +30,6 @@ double shortest_distance(const Mesh& mesh) {
   }
   return shortest;
 }
-
-/// The node of each place at which a node of the first mesh may stand, in order of x, so that few are looked at.
-class NearNodes {
- public:
-  NearNodes(const Mesh& mesh, std::vector<int> nodes) : mesh_(mesh), nodes_(std::move(nodes)) {
-    std::sort(nodes_.begin(), nodes_.end(), [&](int a, int b) { return mesh_.nodes[a][0] < mesh_.nodes[b][0]; });
-  }
-
-  /// The nearest node within `reach` of a place, -1 if there is none.
-  int find(const Point& at, double reach) const {
-    auto node = std::lower_bound(nodes_.begin(), nodes_.end(), at[0] - reach,
-                                 [&](int candidate, double x) { return mesh_.nodes[candidate][0] < x; });
-    int nearest = -1;
-    double best = reach;
-    for (; node != nodes_.end() && mesh_.nodes[*node][0] <= at[0] + reach; ++node) {
-      const double apart = distance(mesh_.nodes[*node], at);
-      if (apart > best) continue;
-      best = apart;
-      nearest = *node;
-    }
-    return nearest;
-  }
-
- private:
-  const Mesh& mesh_;
-  std::vector<int> nodes_;
-};
 
 /// Where the parts of one mesh come to stand in the other; -1: nowhere.
 struct Places {
@@ -146,11 +120,12 @@ JoinedMesh superposed(const Mesh& first, const Mesh& second) {
 JoinedMesh glued(const Mesh& first, const Mesh& second, std::span<const int> first_cells,
                  std::span<const int> second_cells) {
   const double reach = gluing_tolerance * std::min(shortest_distance(first), shortest_distance(second));
-  const NearNodes candidates(first, first.nodes_of_cells(first_cells));
+  const NearestNode nearest(first, first.nodes_of_cells(first_cells));
   std::vector<int> partners(second.nodes.size(), -1);
   for (const int node : second.nodes_of_cells(second_cells)) {
-    partners[static_cast<std::size_t>(node)] = candidates.find(second.nodes[node], reach);
-    if (partners[static_cast<std::size_t>(node)] >= 0) continue;
+    const int partner = nearest(place(second, node), reach);
+    partners[static_cast<std::size_t>(node)] = partner;
+    if (partner >= 0) continue;
     throw Error(
         "not-coincident",
         fmt::format(

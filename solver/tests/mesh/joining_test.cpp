@@ -1,6 +1,7 @@
 #include "solver/mesh/joining.hpp"
 
 #include <array>
+#include <numeric>
 
 #include <catch2/catch.hpp>
 
@@ -46,6 +47,28 @@ TEST_CASE("glued meshes share the nodes of the seam, whose cells go", "[mesh]") 
   CHECK_FALSE(joined.mesh.cell_groups.contains("LEFT_2"));  // its one cell is gone
   CHECK(joined.mesh.cell_group("RIGHT").size() == 1);       // the second mesh's: the name is free again
   CHECK(joined.mesh.node_group("CORNER_2") == std::vector<int>{1});
+}
+
+TEST_CASE("seams across any axis find their partners", "[mesh]") {
+  // Sheets of squares in the plane X = 0, whose nodes have one X; the second is numbered the other way round.
+  constexpr int side = 20;
+  const auto sheet = [](bool reversed) {
+    Mesh mesh;
+    for (int i = 0; i < side * side; ++i) {
+      const int node = reversed ? side * side - 1 - i : i;
+      mesh.nodes.push_back({0.0, static_cast<double>(node % side), static_cast<double>(node / side)});
+    }
+    for (int i = 0; i + side + 1 < side * side; ++i)
+      if (i % side != side - 1) mesh.add_cell(CellType::quad4, std::array{i, i + 1, i + side + 1, i + side});
+    mesh.cell_groups["ALL"].resize(static_cast<std::size_t>(mesh.cell_count()));
+    std::iota(mesh.cell_groups["ALL"].begin(), mesh.cell_groups["ALL"].end(), 0);
+    mesh.add_cell(CellType::poi1, std::array{0});
+    return mesh;
+  };
+  const Mesh first = sheet(false), second = sheet(true);
+  const JoinedMesh joined = glued(first, second, first.cell_group("ALL"), second.cell_group("ALL"));
+  REQUIRE(joined.mesh.cell_count() == 2);
+  CHECK(joined.mesh.cell(1).front() == side * side - 1);
 }
 
 TEST_CASE("what does not coincide cannot be glued", "[mesh]") {

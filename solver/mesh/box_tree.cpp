@@ -1,4 +1,4 @@
-#include "solver/contact/box_tree.hpp"
+#include "solver/mesh/box_tree.hpp"
 
 #include <algorithm>
 #include <numeric>
