@@ -17,6 +17,7 @@
 #include "commands/analysis/stability_reading.hpp"
 #include "commands/bounds.hpp"
 #include "commands/commands.hpp"
+#include "commands/nearest.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 
@@ -74,10 +75,8 @@ solver::StepPlan steps_of(const Keywords& increment, std::optional<double> initi
     }
     if (!increment.given(instant)) return otherwise;
     const double wanted = increment.real(instant);
-    const double reach = increment.real("PRECISION") * (wanted == 0.0 ? 1.0 : std::abs(wanted));
-    const auto nearest = std::ranges::min_element(all, {}, [&](double each) { return std::abs(each - wanted); });
-    if (nearest != all.end() && std::abs(*nearest - wanted) <= reach)
-      return static_cast<std::size_t>(nearest - all.begin());
+    const InstantTolerance tolerance{increment.real("PRECISION")};
+    if (const auto nearest = nearest_within(all, wanted, tolerance.reach(wanted))) return *nearest;
     throw DiagnosticError("unknown-step", fmt::format("LIST_INST has no instant {}", wanted),
                           increment.span_of(instant), fmt::format("it goes from {} to {}", all.front(), all.back()));
   };

@@ -60,6 +60,12 @@ std::string place_keyword(const Keywords& test, const PlaceKeywords& names) {
   return names.all;
 }
 
+std::vector<int> all_of(int count) {
+  std::vector<int> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 std::vector<int> components_tested(const Keywords& test, const std::vector<std::string>& components) {
   if (test.given("NOM_VARI")) return {component_of(test, components, test.text("NOM_VARI"), "NOM_VARI")};
   if (test.given("NOM_CMP")) {
@@ -73,22 +79,15 @@ std::vector<int> components_tested(const Keywords& test, const std::vector<std::
     for (const std::string& name : names) chosen.push_back(component_of(test, components, name));
     return chosen;
   }
-  std::vector<int> all(components.size());
-  std::iota(all.begin(), all.end(), 0);
-  return all;
+  return all_of(static_cast<int>(components.size()));
 }
 
 // What stands beside the values at nodes: see takes_multipliers_in.
 double nodal_value(const Keywords& test, const NodalField& field, const solver::Mesh& mesh, const Values& others) {
   const auto components = components_tested(test, field.components);
   if (test.given("TYPE_TEST")) {
-    auto nodes = names_a_place(test) ? selected_nodes(test, mesh) : std::vector<int>();
-    if (nodes.empty() && names_a_place(test))
-      throw DiagnosticError("empty-group", "what is named holds no node, and nothing is tested", test.span);
-    if (nodes.empty()) {
-      nodes.resize(static_cast<std::size_t>(mesh.node_count()));
-      std::iota(nodes.begin(), nodes.end(), 0);
-    }
+    const auto nodes =
+        names_a_place(test) ? needed(selected_nodes(test, mesh), test, "node") : all_of(mesh.node_count());
     Values values;
     for (const int node : nodes) {
       for (const int component : components) {
@@ -145,12 +144,9 @@ std::function<bool(int cell, int point)> points_tested(const Keywords& test, con
 
 double element_value(const Keywords& test, const ElementField& field, const solver::Mesh& mesh) {
   const auto components = components_tested(test, field.components);
-  auto cells = selected_cells(test, mesh, cell_places);
+  const auto named = selected_cells(test, mesh, cell_places);
   if (test.given("TYPE_TEST")) {
-    if (cells.empty() && !names_a_place(test, cell_places)) {
-      cells.resize(static_cast<std::size_t>(mesh.cell_count()));
-      std::iota(cells.begin(), cells.end(), 0);
-    }
+    const auto cells = names_a_place(test, cell_places) ? needed(named, test, "cell") : all_of(mesh.cell_count());
     Values values;
     const auto is_tested = points_tested(test, field, mesh);
     for (const int cell : cells) {
@@ -166,7 +162,7 @@ double element_value(const Keywords& test, const ElementField& field, const solv
     if (values.empty()) not_carried(test, "the field");
     return reduced(test, values);
   }
-  const int cell = single(test, cells, place_keyword(test, cell_places), "cell");
+  const int cell = single(test, named, place_keyword(test, cell_places), "cell");
   if (field.points(cell) == 0) not_carried(test, "cell " + mesh.cell_name(cell));
   const int place =
       local_point(test, field, cell, mesh) * field.values_a_point(cell) + sub_point(test, field, cell, mesh);

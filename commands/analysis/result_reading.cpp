@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "commands/nearest.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/field_computation.hpp"
@@ -62,14 +63,8 @@ InstantTolerance instant_tolerance(const Keywords& keywords) {
 }
 
 std::size_t nearest_step(const solver::Result& result, double instant, const InstantTolerance& tolerance) {
-  std::size_t nearest = result.steps.size();
-  for (std::size_t i = 0; i < result.steps.size(); ++i) {
-    const auto distance = [&](std::size_t k) { return std::abs(result.steps[k].instant - instant); };
-    if (tolerance.meets(instant, result.steps[i].instant) &&
-        (nearest == result.steps.size() || distance(i) < distance(nearest)))
-      nearest = i;
-  }
-  return nearest;
+  return nearest_within(result.steps, instant, tolerance.reach(instant), &ResultStep::instant)
+      .value_or(result.steps.size());
 }
 
 double instant_reach(const Keywords& keywords, double instant) { return instant_tolerance(keywords).reach(instant); }

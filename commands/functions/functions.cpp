@@ -9,6 +9,7 @@
 
 #include "commands/diagnosed.hpp"
 #include "commands/functions/function_building.hpp"
+#include "commands/nearest.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
 #include "solver/functions/deformed_place.hpp"
@@ -226,9 +227,7 @@ Value SurfaceConcept::method(std::string_view name, const std::vector<Value>& ar
 }
 
 const solver::TabulatedFunction& SurfaceConcept::row_near(double value, double reach, const Span& span) const {
-  const auto found = std::ranges::min_element(edges_.x, {}, [&](double each) { return std::abs(each - value); });
-  if (found != edges_.x.end() && std::abs(*found - value) <= reach)
-    return *rows_[static_cast<std::size_t>(found - edges_.x.begin())];
+  if (const auto row = nearest_within(edges_.x, value, reach)) return *rows_[*row];
   throw DiagnosticError("unknown-step", fmt::format("the function of two parameters has none for {}", value), span,
                         fmt::format("it has them for {}", fmt::join(edges_.x, ", ")));
 }
