@@ -16,6 +16,7 @@ namespace comma::solver {
 namespace {
 
 constexpr int variables_of_beam = 3;
+constexpr int roll_variable = 1;
 using Vector12d = Eigen::Matrix<double, 12, 1>;
 /// What turns the axes in a step: the displacement of the second node relative to the first, and the mean of the
 /// rotations of both.
@@ -177,7 +178,7 @@ class RotatingBeam final : public ElementBlock {
       for (int point = 0; point < point_count(); ++point) {
         double* own = out.data() + (point_count() * element + point) * variables_of_beam;
         own[0] = 0.0;
-        own[1] = roll_of(now.axes);
+        own[roll_variable] = roll_of(now.axes);
         own[2] = now.elongation;
       }
     }
@@ -204,7 +205,8 @@ class RotatingBeam final : public ElementBlock {
               std::span<const double> variables) override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const double* own = variables.empty() ? nullptr : variables.data() + point_count() * variables_of_beam * element;
-      const double roll = own == nullptr ? members_[static_cast<std::size_t>(element)].section->roll : own[1];
+      const double roll =
+          own == nullptr ? members_[static_cast<std::size_t>(element)].section->roll : own[roll_variable];
       begin(element, u, roll, reported.empty() ? Vector12d::Zero().eval() : end_forces(reported.data() + 12 * element));
       past_[static_cast<std::size_t>(element)].elongation = own == nullptr ? 0.0 : own[2];
     }
@@ -369,6 +371,10 @@ class RotatingBeam final : public ElementBlock {
 
 std::unique_ptr<ElementBlock> make_rotating_beam_block(const BlockInput& input, std::vector<int> cells) {
   return std::make_unique<RotatingBeam>(input, std::move(cells));
+}
+
+Eigen::Matrix3d rotated_axes(const Eigen::Vector3d& chord, std::span<const double> variables) {
+  return level_axes(chord, variables[roll_variable]);
 }
 
 }  // namespace comma::solver

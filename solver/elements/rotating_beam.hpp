@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "solver/elements/element_block.hpp"
@@ -18,5 +19,8 @@ namespace comma::solver {
 /// elongation that the turns of all steps have left. Throws Error `unsupported` for sections that vary and materials
 /// whose properties do, what make_slender_block() does else.
 std::unique_ptr<ElementBlock> make_rotating_beam_block(const BlockInput& input, std::vector<int> cells);
+
+/// Own axes (rows) of such a beam that has moved, from its chord now (first node to second) and its internal variables.
+Eigen::Matrix3d rotated_axes(const Eigen::Vector3d& chord, std::span<const double> variables);
 
 }  // namespace comma::solver

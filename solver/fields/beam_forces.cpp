@@ -55,7 +55,7 @@ class SpanLoads {
 }  // namespace
 
 ElementField end_section_forces(const ForceInput& input, const ElementField& at_nodes,
-                                std::span<const AppliedLoad> loads, double time) {
+                                std::span<const AppliedLoad> loads, double time, const TurnedAxes& turned) {
   ElementField field = section_forces(at_nodes);
   std::array<int, 6> columns;
   for (int c = 0; c < 6; ++c) columns[c] = field.component(beam_force_names[c]);
@@ -64,7 +64,8 @@ ElementField end_section_forces(const ForceInput& input, const ElementField& at_
   for (const auto& [cell, own_loads] : spans.by_cell()) {
     if (field.points(cell) != 2) continue;
     add_external_forces(input, own_loads, time, forces);
-    const Eigen::Matrix3d axes = slender_axes(input, cell);
+    const auto now = turned.find(cell);
+    const Eigen::Matrix3d axes = now == turned.end() ? slender_axes(input, cell) : now->second;
     for (int end = 0; end < 2; ++end) {
       const int node = input.model.mesh->cell(cell)[end];
       for (int part = 0; part < 2; ++part) {
