@@ -236,21 +236,40 @@ std::shared_ptr<ResultConcept> to_go_on_with(const Call& call, std::optional<int
 
 FieldsOfSteps::FieldsOfSteps(const Call& call, const ResultConcept& source) : call_(call), source_(source) {
   const auto& steps = source.result.steps;
+  std::size_t begin = 0;
   for (const EarlierPhase& phase : source.earlier) {
     const auto after =
         std::ranges::find_if(steps, [&](const solver::ResultStep& step) { return step.order > phase.last_order; });
-    phases_.push_back(
-        {static_cast<std::size_t>(after - steps.begin()), completed(call, source, phase.problem), nullptr});
+    const auto end = static_cast<std::size_t>(after - steps.begin());
+    phases_.push_back({begin, end, completed(call, source, phase.problem), nullptr});
+    begin = end;
   }
-  phases_.push_back({steps.size(), completed(call, source, source.problem), nullptr});
+  phases_.push_back({begin, steps.size(), completed(call, source, source.problem), nullptr});
+}
+
+solver::FieldComputation& FieldsOfSteps::computation_of(std::size_t step) {
+  const auto found = std::ranges::find_if(phases_, [&](const Phase& each) { return step < each.end; });
+  Phase& own = found == phases_.end() ? phases_.back() : *found;
+  if (own.computation) return *own.computation;
+  const auto is_other = [&](const Phase& each) {
+    return each.begin < own.begin &&
+           (each.problem.model != own.problem.model || each.problem.materials != own.problem.materials ||
+            each.problem.properties != own.problem.properties);
+  };
+  solver::OtherPhases others;
+  others.begin = own.begin;
+  others.end = own.end;
+  others.field = [this](const std::string& name, std::size_t index) -> const solver::Field& {
+    return computation_of(index).needed(name, index);
+  };
+  others.stiffness_changes = std::ranges::any_of(phases_, is_other);
+  own.computation = std::make_unique<solver::FieldComputation>(own.problem, source_.result, std::move(others));
+  return *own.computation;
 }
 
 solver::Field FieldsOfSteps::compute(std::string_view name, std::size_t step,
                                      std::optional<std::span<const int>> cells) {
-  const auto phase = std::ranges::find_if(phases_, [&](const Phase& each) { return step < each.end; });
-  Phase& own = phase == phases_.end() ? phases_.back() : *phase;
-  if (!own.computation) own.computation = std::make_unique<solver::FieldComputation>(own.problem, source_.result);
-  return own.computation->compute(name, step, cells);
+  return computation_of(step).compute(name, step, cells);
 }
 
 void FieldsOfSteps::warn_of_limited_sources(interpreter::Diagnostics& diagnostics) const {

@@ -46,6 +46,8 @@ class FieldsOfSteps {
  public:
   /// Throws what problem_of_result() does.
   FieldsOfSteps(const interpreter::Call& call, const ResultConcept& source);
+  FieldsOfSteps(const FieldsOfSteps&) = delete;
+  FieldsOfSteps& operator=(const FieldsOfSteps&) = delete;
 
   const solver::StaticProblem& problem() const { return phases_.back().problem; }
   /// See FieldComputation.
@@ -55,14 +57,17 @@ class FieldsOfSteps {
 
  private:
   struct Phase {
+    std::size_t begin;
     std::size_t end;  ///< the number of the first step after it
     solver::StaticProblem problem;
     std::unique_ptr<solver::FieldComputation> computation;
   };
 
+  solver::FieldComputation& computation_of(std::size_t step);
+
   const interpreter::Call& call_;
   const ResultConcept& source_;
-  std::vector<Phase> phases_;
+  std::vector<Phase> phases_;  ///< not empty
 };
 
 struct SolverChoice {

@@ -189,6 +189,16 @@ ElementField total_energy_density(const ElementField& stresses, const ElementFie
   const TensorReader strain(strains, strain_components);
   const TensorReader stress_before(stresses_before ? *stresses_before : stresses, stress_components);
   const TensorReader strain_before(strains_before ? *strains_before : strains, strain_components);
+  const auto lacks = [&](const ElementField* field, int cell) {
+    return field != nullptr && field->points(cell) != stresses.points(cell);
+  };
+  for (int cell = 0; cell + 1 < static_cast<int>(stresses.starts.size()); ++cell)
+    if (stress.has(cell) &&
+        (lacks(stresses_before, cell) || lacks(strains_before, cell) || lacks(previous, cell) || lacks(&strains, cell)))
+      throw Error("incompatible-field",
+                  "stresses, strains and energies of two steps, of which the total energy adds up, lie on different "
+                  "cells",
+                  "compute SIEF_ELGA of all steps on the whole model, and with one model");
   return scalar_field(stresses, stress, [&](int cell, int point) {
     Vector6d mean = 0.5 * stress.at(cell, point);
     Vector6d change = strain.at(cell, point);

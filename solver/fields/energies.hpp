@@ -18,7 +18,7 @@ ElementField strain_energy_density(const FieldInput& input, const ElementField& 
 
 /// ETOT_ELGA: the work of the stresses per volume since the unstressed state, by the trapezoidal rule: `previous` plus
 /// 1/2 (stress + stress before) : (strain - strain before). Strains are EPSI at Gauss points. The fields of the step
-/// before are null at the first one.
+/// before are null at the first one. Throws Error `incompatible-field` where they lie on other points.
 ElementField total_energy_density(const ElementField& stresses, const ElementField& strains,
                                   const ElementField* stresses_before, const ElementField* strains_before,
                                   const ElementField* previous);

@@ -87,9 +87,10 @@ bool ends(std::string_view name, std::string_view place) { return name.ends_with
 
 }  // namespace
 
-FieldComputation::FieldComputation(const StaticProblem& problem, const Result& result)
+FieldComputation::FieldComputation(const StaticProblem& problem, const Result& result, OtherPhases others)
     : problem_(problem),
       result_(result),
+      others_(std::move(others)),
       dofs_(*problem.model),
       assembler_(*problem.model, *problem.materials, *problem.properties, dofs_, problem.behaviours.get()) {}
 
@@ -178,6 +179,7 @@ const Field& FieldComputation::needed(const std::string& name, std::size_t step)
     if (result_.steps[step].limited.contains(name)) limited_sources_.insert(name);
     return found->second;
   }
+  if (step < others_.begin || step >= others_.end) return others_.field(name, step);
   const Key key(step, name);
   if (const auto found = known_.find(key); found != known_.end()) return found->second;
   if (!knows(name)) {
@@ -524,6 +526,13 @@ Field FieldComputation::total_energy_of_cells(std::size_t step) {
   }
   if (!others.empty()) {
     require_no_initial_stresses("the total energy", step);
+    if (others_.stiffness_changes && others_.begin > 0)
+      throw Error(
+          "unsupported",
+          fmt::format("the total energy of beams, plates and discrete elements, such as that on {}, is not known "
+                      "where materials or sections are not the same in all steps of a result",
+                      model.mesh->cell_name(others.front())),
+          "take the elastic energy (ENEL_ELEM, ENER_ELAS), or name the other cells by GROUP_MA");
     if (!assembler_.state().empty() || strains_act_on(step, others))
       throw Error("unsupported",
                   "the total energy of beams, plates and discrete elements is not known beside strains of command "
@@ -537,12 +546,21 @@ Field FieldComputation::total_energy_of_cells(std::size_t step) {
       throw Error(
           "unsupported",
           fmt::format("the total energy of discrete elements with a law of their own, such as that on {}, is not known",
-                      model.mesh->cell_name(*found)),
-          "name the other cells by GROUP_MA");
+                      model.mesh->cell_name(*found)));
     energies = beside(energies, on_cells(assembler_.elastic_energies(to_dofs(displacement(step), dofs_)), others));
   }
   if (bars.empty()) return energies;
   know_earlier("ETOT_ELEM", step);
+  const auto lacks = [&](const ElementField& before) {
+    return std::ranges::any_of(bars, [&](int cell) { return before.points(cell) == 0; });
+  };
+  if (step > 0 && (lacks(element_field("SIEF_ELGA", step - 1)) || lacks(element_field("ETOT_ELEM", step - 1))))
+    throw Error(
+        "incompatible-field",
+        fmt::format("the total energy adds up from step to step, and step INST={} of the result lacks forces or "
+                    "energies of bars",
+                    result_.steps[step - 1].instant),
+        "compute ETOT_ELEM of all steps on the whole model, and with one model");
   ElementField of_bars = bar_work(model, bars, element_field("SIEF_ELGA", step), displacement(step),
                                   step > 0 ? &element_field("SIEF_ELGA", step - 1) : nullptr,
                                   step > 0 ? &displacement(step - 1) : nullptr);

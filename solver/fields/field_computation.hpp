@@ -1,6 +1,8 @@
 // Further fields of a result, each from those that it needs (CALC_CHAMP, U4.81.04).
 #pragma once
 
+#include <functional>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -18,6 +20,14 @@
 
 namespace comma::solver {
 
+/// The steps of a result that were computed from another problem (reuse=).
+struct OtherPhases {
+  std::size_t begin = 0;                                      ///< the first step of the phase between them
+  std::size_t end = std::numeric_limits<std::size_t>::max();  ///< the first one after it
+  std::function<const Field&(const std::string& name, std::size_t step)> field;  ///< of a step outside
+  bool stiffness_changes = false;  ///< materials, sections or the model of an earlier phase are others
+};
+
 /// Computes fields by their names: stresses SIEF, SIGM, EFGE, SIPO, SIPM, SIRO; strains EPSI, EPME, EPSG, EPMG, EPSL,
 /// EPSP, EPVC, DEGE; criteria SIEQ, EPEQ, EPMQ, EPGQ; DERA, which compares a step with the next one (absent at the
 /// last); INDIC_SEUIL, INDIC_ENER (X1, see loading_indicators.hpp); command variables VARC; energies ENEL, ETOT, EPOT;
@@ -29,8 +39,9 @@ namespace comma::solver {
 /// Keeps references to its arguments.
 class FieldComputation {
  public:
-  /// Throws what Assembler does.
-  FieldComputation(const StaticProblem& problem, const Result& result);
+  /// `others`: of which what adds up from step to step, or compares steps, takes its fields. Throws what Assembler
+  /// does.
+  FieldComputation(const StaticProblem& problem, const Result& result, OtherPhases others = {});
 
   static bool knows(std::string_view name);
 
@@ -40,6 +51,10 @@ class FieldComputation {
   /// that plates do not have in comma, `unknown-field` naming one that the step lacks, and what the functions of
   /// solver/fields throw.
   Field compute(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells = {});
+
+  /// The same of the whole model, or what the step holds of it; good until fields of the step after the next are
+  /// computed.
+  const Field& needed(const std::string& name, std::size_t step);
 
   /// The fields of the steps that have been taken as they are and lie on some cells only: what was computed from them
   /// lacks the rest.
@@ -51,7 +66,6 @@ class FieldComputation {
   static const std::map<std::string, Rule, std::less<>>& rules();
 
   Field derive(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells = {});
-  const Field& needed(const std::string& name, std::size_t step);
   const ElementField& element_field(const std::string& name, std::size_t step);
   const NodalField& displacement(std::size_t step);
   void move_to(std::size_t step);
@@ -113,6 +127,7 @@ class FieldComputation {
 
   const StaticProblem& problem_;
   const Result& result_;
+  OtherPhases others_;
   DofMap dofs_;
   Assembler assembler_;
   std::optional<std::size_t> step_;
