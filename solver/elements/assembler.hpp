@@ -153,7 +153,7 @@ class Assembler {
                             double time) const;
 
   /// Elastic energy of each element without memory (EPOT_ELEM: TOTALE), that of (strain - strain of the command
-  /// variables). Axisymmetric bodies: per radian.
+  /// variables - what impose_strains() has given). Axisymmetric bodies: per radian.
   ElementField elastic_energies(const Eigen::VectorXd& u) const;
 
  private:

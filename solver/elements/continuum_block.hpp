@@ -116,12 +116,15 @@ class ContinuumBlock : public ElementBlock {
       for (int g = 0; g < point_count(); ++g) {
         const Point point = locate(x, samples_[g]);
         const Behaviour behaviour(*this, element, g, x, state);
-        const Strain elastic = strain(displacements, samples_[g], point) - behaviour.inelastic;
+        Strain elastic = strain(displacements, samples_[g], point) - behaviour.inelastic;
+        if (imposed_ != nullptr) elastic -= imposed_strain(*imposed_, element, g, x);
         out[element] += 0.5 * point.weight * elastic.dot(*behaviour.law * elastic);
       }
     }
   }
 
+  /// Of an elastic material they count in the energies.
+  void impose(const ImposedStrains* imposed) override { imposed_ = imposed; }
   void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state,
                                  ForceSum forces) const override {
     std::array<int, size> dofs;
@@ -408,10 +411,14 @@ class ContinuumBlock : public ElementBlock {
 
   Strain imposed_stress(const ImposedStrains& imposed, int element, int g, const Coordinates& x,
                         const VariableState& state) const {
+    const Behaviour behaviour(*this, element, g, x, state);
+    return *behaviour.law * imposed_strain(imposed, element, g, x);
+  }
+
+  Strain imposed_strain(const ImposedStrains& imposed, int element, int g, const Coordinates& x) const {
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
     at.head<Dim>() = x.transpose() * samples_[g].values;
-    const Behaviour behaviour(*this, element, g, x, state);
-    return *behaviour.law * imposed.continuum(cells_[element], g, at).template head<strains>();
+    return imposed.continuum(cells_[element], g, at).template head<strains>();
   }
 
   Coordinates element_forces(int element, const Displacements& u, const VariableState& state) const {
@@ -447,6 +454,7 @@ class ContinuumBlock : public ElementBlock {
   std::vector<Sample> samples_;
   std::vector<MaterialInUse> materials_;
   std::vector<int> material_of_element_;
+  const ImposedStrains* imposed_ = nullptr;
 };
 
 }  // namespace comma::solver

@@ -75,14 +75,13 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     });
   }
 
-  void impose(const ImposedStrains* imposed) override { imposed_ = imposed; }
   void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
     for (const int cell : this->cells_) {
       if (!imposed.acts_on(cell)) continue;
       if (law_.is_large())
         throw Error("unsupported", fmt::format("cell {}: initial strains are known in small strains only",
                                                this->mesh_.cell_name(cell)));
-      check_known_to_law(imposed_, this->mesh_, cell);
+      check_known_to_law(this->imposed_, this->mesh_, cell);
     }
   }
   void subtract_imposed_stresses(const ImposedStrains&, const VariableState&, std::span<double>) const override {}
@@ -223,7 +222,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       const auto& elastic = block.materials_[block.material_of_element_[element]];
       plastic = &material.point;
       const bool strained = elastic.strained(state);
-      if (block.imposed_) inelastic = block.imposed_strain(element, g, x);
+      if (block.imposed_ != nullptr) inelastic = block.imposed_strain(element, g, x);
       if (material.constant && !strained) return;
       const MaterialPoint at = block.material_point(element, g, x, state);
       if (strained) inelastic += inelastic_strain(elastic.material, at);
@@ -237,11 +236,8 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
 
   /// Plane bodies have no strains out of their plane but that across it.
   Vector6d imposed_strain(int element, int g, const Coordinates& x) const {
-    Eigen::Vector3d at = Eigen::Vector3d::Zero();
-    at.head<Dim>() = x.transpose() * this->samples_[g].values;
     Vector6d strain = Vector6d::Zero();
-    strain.head<strains>() =
-        imposed_->continuum(this->cells_[static_cast<std::size_t>(element)], g, at).template head<strains>();
+    strain.head<strains>() = Base::imposed_strain(*this->imposed_, element, g, x);
     return strain;
   }
 
@@ -345,7 +341,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   }
 
   bool may_be_concurrent(const VariableState& state) const {
-    return imposed_ == nullptr && this->evaluates_no_function(state) &&
+    return this->imposed_ == nullptr && this->evaluates_no_function(state) &&
            std::ranges::all_of(plastic_materials_, [](const PlasticMaterial& material) { return material.constant; });
   }
 
@@ -394,7 +390,6 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   PointLaw law_;
   std::vector<PointPast> past_;  ///< cells x points
   std::optional<double> extrapolation_;
-  const ImposedStrains* imposed_ = nullptr;
   std::vector<PlasticMaterial> plastic_materials_;
   std::vector<int> plastic_material_of_element_;
 };

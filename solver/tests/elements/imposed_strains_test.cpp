@@ -4,6 +4,7 @@
 
 #include "load_scene.hpp"
 #include "solver/error.hpp"
+#include "solver/fields/energies.hpp"
 #include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
@@ -58,6 +59,15 @@ TEST_CASE("a free body takes an initial strain without stress, on every cell", "
     CHECK((body.assembler->initial_strain_forces(both, 2.0) - forces).norm() == 0.0);
     CHECK(largest_stress(body.assembler->stresses(u, both, 2.0)) < 1e-13);
     CHECK(largest_stress(body.assembler->stresses(u)) > 1e-2);
+    // No energy where there is no stress; held back, that of the stress on the strain that is not there.
+    body.assembler->impose_strains(both, 2.0);
+    const ElementField held = body.assembler->stresses(body.zero(), both, 2.0);
+    const std::array<double, 6> shown = strain_of(d);
+    double density = 0.0;
+    for (int c = 0; c < (d == 3 ? 6 : 4); ++c) density -= (c < 3 ? 0.5 : 1.0) * held.at(0, 0, c) * shown[c];
+    const double energy = density * cell_volumes(body.model).values[0];
+    CHECK(std::abs(body.assembler->elastic_energies(u).values[0]) <= 1e-13 * energy);
+    CHECK(body.assembler->elastic_energies(body.zero()).values[0] == Approx(energy).epsilon(1e-12));
   }
 }
 
