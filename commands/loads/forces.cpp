@@ -466,11 +466,6 @@ std::shared_ptr<const solver::ElementField> field_at_points(const Keywords& occu
   return field;
 }
 
-void add_initial_stresses(const Keywords& call, const LoadedModel& target, solver::Load& load) {
-  for (const Keywords& occurrence : call.factors("PRE_SIGM"))
-    load.initial_stress_fields.push_back(field_at_points(occurrence, "SIGM", target));
-}
-
 // The initial strains of an occurrence, by the kind of cell that has such ones.
 struct InitialStrains {
   ByCell<solver::InitialStrain> continuum;
@@ -532,25 +527,73 @@ std::span<const std::string_view> strains_of(const LoadedModel& target, int cell
   return {};
 }
 
+bool is_stressed(const solver::ElementField& field, int cell) {
+  const std::size_t width = field.components.size();
+  const auto begin = field.values.begin() + static_cast<std::ptrdiff_t>(field.starts[cell] * width);
+  const auto end = field.values.begin() + static_cast<std::ptrdiff_t>(field.starts[cell + 1] * width);
+  return std::any_of(begin, end, [](double value) { return std::abs(value) > 0.0; });
+}
+
+bool has_strain(const LoadedModel& target, int cell, const std::string& component) {
+  return std::ranges::count(strains_of(target, cell), component) > 0;
+}
+
+// Solids have those of their stabilisation and of the pressure beside SIXX ..., which do not push.
+bool has_stress(const LoadedModel& target, int cell, const std::string& component) {
+  const auto formulation = target.model.formulations[cell];
+  if (solver::is_bar(formulation)) return component == "N";
+  return solver::continuum_dimension(formulation) > 0 && !target.model.is_skin(cell) && component.starts_with('S');
+}
+
+/// Fields that loads take.
+struct FieldKeyword {
+  const char* factor;
+  const char* keyword;
+  const char* noun;
+  bool (*has)(const LoadedModel& target, int cell, const std::string& component);
+  const char* hint;
+};
+constexpr FieldKeyword initial_strain_field = {
+    "PRE_EPSI", "EPSI", "strain", has_strain,
+    "EPXX ... are for solids and plane bodies, EPXX for bars and beams, KY and KZ for beams, EXX ... KXY for plates"};
+constexpr FieldKeyword initial_stress_field = {
+    "PRE_SIGM", "SIGM", "stress", has_stress,
+    "SIXX ... are for solids and plane bodies, N for bars; beams and plates have none"};
+
 // A component that none of the cells has would be left out.
-void require_taken(const Keywords& occurrence, const solver::ElementField& field, const LoadedModel& target) {
+void require_taken(const Keywords& occurrence, const FieldKeyword& kind, const solver::ElementField& field,
+                   const LoadedModel& target) {
   for (std::size_t c = 0; c < field.components.size(); ++c) {
     bool is_given = false, is_taken = false;
     for (int cell = 0; cell < target.mesh.cell_count() && !is_taken; ++cell) {
       for (int point = 0; point < field.points(cell); ++point) {
         if (!(std::abs(field.at(cell, point, static_cast<int>(c))) > 0.0)) continue;
         is_given = true;
-        is_taken = std::ranges::count(strains_of(target, cell), field.components[c]) > 0;
+        is_taken = kind.has(target, cell, field.components[c]);
         break;
       }
     }
     if (!is_given || is_taken) continue;
-    throw DiagnosticError(
-        "no-element",
-        fmt::format("PRE_EPSI: none of these cells can have the strain {} of the field", field.components[c]),
-        occurrence.span_of("EPSI"),
-        "EPXX ... are for solids and plane bodies, EPXX for bars and beams, KY and KZ for beams, EXX ... KXY for "
-        "plates");
+    throw DiagnosticError("no-element",
+                          fmt::format("{}: none of these cells can have the {} {} of the field", kind.factor, kind.noun,
+                                      field.components[c]),
+                          occurrence.span_of(kind.keyword), kind.hint);
+  }
+}
+
+void add_initial_stresses(const Keywords& call, const LoadedModel& target, solver::Load& load) {
+  for (const Keywords& occurrence : call.factors("PRE_SIGM")) {
+    auto field = field_at_points(occurrence, "SIGM", target);
+    require_taken(occurrence, initial_stress_field, *field, target);
+    for (int cell = 0; cell < target.mesh.cell_count(); ++cell)
+      if (is_plate(target, cell) && is_stressed(*field, cell))
+        throw DiagnosticError("unsupported",
+                              fmt::format("PRE_SIGM: the field has stresses on plate {}, where comma knows none as a "
+                                          "load",
+                                          target.mesh.cell_name(cell)),
+                              occurrence.span_of("SIGM"),
+                              "make a field of the solids, plane bodies and bars alone (CREA_CHAMP, GROUP_MA)");
+    load.initial_stress_fields.push_back(std::move(field));
   }
 }
 
@@ -562,7 +605,7 @@ void add_initial_strains(const Keywords& call, const LoadedModel& target, solver
       continue;
     }
     load.initial_strain_fields.push_back(field_at_points(occurrence, "EPSI", target));
-    require_taken(occurrence, *load.initial_strain_fields.back(), target);
+    require_taken(occurrence, initial_strain_field, *load.initial_strain_fields.back(), target);
   }
   append(load.initial_strains, std::move(strains.continuum));
   append(load.initial_slender_strains, std::move(strains.slender));

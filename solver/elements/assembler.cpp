@@ -194,19 +194,23 @@ std::vector<double> values_on(std::span<const int> cells, const ElementField& la
 /// Of a solid; more of them are no stresses.
 constexpr std::size_t solid_stress_count = 6;
 
-/// Stresses of a load: what a cell that has some does not carry is zero, and a cell without, or with zeros, has none.
+/// Stresses of a load: what a cell that has some does not carry is zero; a cell without, with zeros, or with those of
+/// other elements alone, has none.
 std::vector<double> read_initial_stresses(const ElementBlock& block, const ElementField& field, const Mesh& mesh) {
   std::vector<int> columns;
   for (const auto& name : stress_names(block)) columns.push_back(field.component(name));
   std::vector<double> values;
   for (const int cell : block.cells()) {
+    if (block.point_count() == 0) continue;  // plates
     const int points = is_zero(field, cell) ? 0 : field.points(cell);
     if (points != 0 && points != block.point_count()) throw_other_points(field, cell, mesh, block.point_count());
+    const std::size_t first = values.size();
     for (int point = 0; point < block.point_count(); ++point)
-      for (const int column : columns) {
-        const double value = points == 0 || column < 0 ? absent : field.at(cell, point, column);
-        values.push_back(points != 0 && std::isnan(value) ? 0.0 : value);
-      }
+      for (const int column : columns)
+        values.push_back(points == 0 || column < 0 ? absent : field.at(cell, point, column));
+    const std::span own(values.begin() + static_cast<std::ptrdiff_t>(first), values.end());
+    const auto is_absent = [](double value) { return std::isnan(value); };
+    if (!std::ranges::all_of(own, is_absent)) std::ranges::replace_if(own, is_absent, 0.0);
   }
   return values;
 }
@@ -281,8 +285,9 @@ std::vector<int> gather_nodes(const Mesh& mesh, std::span<const int> cells) {
 }
 
 void ElementBlock::add_initial_stress_forces(std::span<const double> stresses, ForceSum) const {
-  if (std::ranges::all_of(stresses, [](double each) { return std::isnan(each); })) return;
-  throw Error("unsupported", "initial stresses as a load are known of solids and plane bodies alone");
+  if (std::ranges::all_of(stresses, [](double each) { return std::isnan(each) || each == 0.0; })) return;
+  throw Error("unsupported", "initial stresses as a load (PRE_SIGM) are known of solids, plane bodies and bars alone",
+              "make a field of these cells alone (CREA_CHAMP, GROUP_MA)");
 }
 
 void ElementBlock::add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const {

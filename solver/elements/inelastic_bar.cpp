@@ -143,6 +143,11 @@ class InelasticBar final : public ElementBlock {
     for (int element = 0; element < map_.element_count(); ++element)
       add_force(element, reported[static_cast<std::size_t>(element)], forces);
   }
+  void add_initial_stress_forces(std::span<const double> stresses, ForceSum forces) const override {
+    for (int element = 0; element < map_.element_count(); ++element)
+      if (const double force = stresses[static_cast<std::size_t>(element)]; !std::isnan(force))
+        add_force(element, force, forces);
+  }
 
   std::span<const int> cells() const override { return cells_; }
   int point_count() const override { return 1; }

@@ -1,5 +1,7 @@
 // Bars and straight beams on two nodes, by their exact stiffness (R3.08.01).
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -168,6 +170,15 @@ class SlenderBlock final : public ElementBlock {
         }
       }
     }
+  }
+
+  /// What a section of a beam bears between its ends does not follow from forces at both.
+  void add_initial_stress_forces(std::span<const double> stresses, ForceSum forces) const override {
+    if constexpr (is_beam) return ElementBlock::add_initial_stress_forces(stresses, forces);
+    std::vector<double> given(stresses.begin(), stresses.end());
+    std::ranges::replace_if(
+        given, [](double each) { return std::isnan(each); }, 0.0);
+    add_forces_of_stresses({}, {}, given, forces);
   }
 
   std::span<const int> cells() const override { return cells_; }
