@@ -120,6 +120,7 @@ void warn_of_empty_field(const std::string& name, const Call& call, Context& con
 void add_fields(const Call& call, Context& context, ResultConcept& data) {
   warn_of_missing_instants("CALC_CHAMP", call, context.diagnostics);
   FieldsOfSteps computation(call, data);
+  computation.warn_of_other_materials(context.diagnostics);
   ChosenCells cells;
   if (call.given("GROUP_MA") || call.given("MAILLE")) cells = selected_cells(call, data.result.mesh());
   std::set<std::string> empty, filled;

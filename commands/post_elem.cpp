@@ -53,6 +53,7 @@ void list_energies(Table& table, const Call& call, interpreter::Diagnostics& dia
                    const char* field) {
   const ResultConcept source = energy_source(call);
   FieldsOfSteps computation(call, source);
+  if (call.has("RESULTAT")) computation.warn_of_other_materials(diagnostics);
   for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
     const auto index = static_cast<std::size_t>(chosen - source.result.steps.data());
     const auto energies = std::get<solver::ElementField>(computation.compute(field, index));
@@ -85,9 +86,11 @@ std::string name_of_whole(const Call& call) {
 }
 
 // Means over the volume of each part.
-void list_indicators(Table& table, const Call& call, const std::string& keyword) {
+void list_indicators(Table& table, const Call& call, interpreter::Diagnostics& diagnostics,
+                     const std::string& keyword) {
   const auto& source = call.data<ResultConcept>("RESULTAT");
   FieldsOfSteps computation(call, source);
+  computation.warn_of_other_materials(diagnostics);
   const solver::Model& model = *computation.problem().model;
   const solver::ElementField volumes = solver::cell_volumes(model);
   for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
@@ -379,7 +382,7 @@ Product post_elem(const Call& call, Context& context) {
   if (call.has("ENER_POT")) list_energies(table, call, context.diagnostics, "ENER_POT", "EPOT_ELEM");
   if (call.has("ENER_TOTALE")) list_energies(table, call, context.diagnostics, "ENER_TOTALE", "ETOT_ELEM");
   for (const char* keyword : {"INDIC_SEUIL", "INDIC_ENER"})
-    if (call.has(keyword)) list_indicators(table, call, keyword);
+    if (call.has(keyword)) list_indicators(table, call, context.diagnostics, keyword);
   if (call.has("MASS_INER")) list_masses(table, call);
   if (call.has("INTEGRALE")) list_integrals(table, call, context.diagnostics);
   if (call.has("NORME")) list_norms(table, call, context.diagnostics);

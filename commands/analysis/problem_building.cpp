@@ -272,6 +272,31 @@ solver::Field FieldsOfSteps::compute(std::string_view name, std::size_t step,
   return computation_of(step).compute(name, step, cells);
 }
 
+void FieldsOfSteps::warn_of_other_materials(interpreter::Diagnostics& diagnostics) const {
+  const auto differs = [&](const char* keyword, const auto& is_other) {
+    if (!call_.has(keyword)) return;
+    if (!is_other(source_.problem) &&
+        std::ranges::none_of(source_.earlier, [&](const EarlierPhase& each) { return is_other(each.problem); }))
+      return;
+    diagnostics.alarm(
+        "other-materials",
+        fmt::format(
+            "{}: {} is not what {} was computed with: what follows from displacements is of what is given here, "
+            "and stresses, forces and internal variables that the result holds are not",
+            call_.command, keyword, call_.concept_of("RESULTAT")->name),
+        call_.span_of(keyword), fmt::format("leave out {}, or solve with what it gives", keyword));
+  };
+  differs("CHAM_MATER", [&](const solver::StaticProblem& problem) {
+    const auto& given = call_.data<MaterialFieldConcept>("CHAM_MATER").field;
+    if (!problem.materials || given.has_made(problem.materials)) return false;
+    return given.get()->by_cell != problem.materials->by_cell || !given.get()->variables.empty() ||
+           !problem.materials->variables.empty();
+  });
+  differs("CARA_ELEM", [&](const solver::StaticProblem& problem) {
+    return problem.properties && call_.data<PropertiesConcept>("CARA_ELEM").properties != problem.properties;
+  });
+}
+
 void FieldsOfSteps::warn_of_limited_sources(interpreter::Diagnostics& diagnostics) const {
   std::set<std::string> limited;
   for (const Phase& phase : phases_)

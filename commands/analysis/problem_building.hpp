@@ -52,6 +52,8 @@ class FieldsOfSteps {
   const solver::StaticProblem& problem() const { return phases_.back().problem; }
   /// See FieldComputation.
   solver::Field compute(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells = {});
+  /// Where CHAM_MATER or CARA_ELEM are not those that the result was computed with.
+  void warn_of_other_materials(interpreter::Diagnostics& diagnostics) const;
   /// For the fields of the result that have been used since.
   void warn_of_limited_sources(interpreter::Diagnostics& diagnostics) const;
 
