@@ -209,8 +209,9 @@ void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& 
 }
 
 ConvergenceCriterion::Measure NewtonSolver::distance(const NewtonState& state) const {
-  return criterion_.measure(largest_component(weights_.weighed(residual_)), load_, is_rounding(state),
-                            reference_.share(residual_), reference_.share_by_component(residual_));
+  const Eigen::VectorXd weighed = weights_.weighed(residual_);
+  return criterion_.measure(largest_component(weighed), load_, is_rounding(state), reference_.share(residual_),
+                            reference_.share_by_component(weighed));
 }
 
 /// Whether the residual is no more than the last bits of u, moved to and fro, make of it. Not where u is so large that

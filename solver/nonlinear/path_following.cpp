@@ -111,8 +111,9 @@ int PathFollowing::iterate(bool stays, double wanted, const DrivenLoads& loads, 
     q = u(elimination_.kept());
     u = elimination_.transformation() * q + loads.fixed_offset + intensity_ * loads.driven_offset;
     evaluate(intensity_, loads, u);
-    const auto measure = criterion_.measure(largest_component(weights_.weighed(residual_)), load_, false,
-                                            reference_.share(residual_), reference_.share_by_component(residual_));
+    const VectorXd weighed = weights_.weighed(residual_);
+    const auto measure = criterion_.measure(largest_component(weighed), load_, false, reference_.share(residual_),
+                                            reference_.share_by_component(weighed));
     history.push_back(report(iteration, measure));
     if (observer_) observer_(history.back());
     if (measure.converged) {

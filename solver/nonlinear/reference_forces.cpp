@@ -158,9 +158,15 @@ double ReferenceForces::share(const VectorXd& residual) const {
 void ReferenceForces::begin_step(const VectorXd& internal_forces) {
   largest_.fill(0.0);
   for (int dof = 0; dof < dofs_.size(); ++dof) {
+    if (!is_motion(dofs_.component_of(dof))) continue;
     double& largest = largest_[static_cast<std::size_t>(dofs_.component_of(dof))];
     largest = std::max(largest, std::abs(internal_forces[dof]));
   }
+  double pushed = 0.0;
+  for (const Component each : translation_components)
+    pushed = std::max(pushed, largest_[static_cast<std::size_t>(each)]);
+  for (const Component each : {Component::pressure, Component::swelling})
+    largest_[static_cast<std::size_t>(each)] = pushed;
 }
 
 std::optional<double> ReferenceForces::share_by_component(const VectorXd& residual) const {

@@ -33,8 +33,9 @@ class ReferenceForces {
   void begin_step(const Eigen::VectorXd& internal_forces);
 
   /// The largest of the shares that the largest residual of each kind of component has of the largest internal force of
-  /// that kind where the step began; a kind without such a force takes the largest of all. Nothing where there is none
-  /// at all.
+  /// that kind where the step began; a kind without such a force takes the largest of all. What a balance of pressures
+  /// or changes of volume lacks is no force: its residual, weighed (RowWeights) to be of the size of one, takes the
+  /// largest of the translations. Nothing where there is none at all.
   std::optional<double> share_by_component(const Eigen::VectorXd& residual) const;
 
  private:
