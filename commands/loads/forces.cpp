@@ -16,6 +16,7 @@
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/elements/slender_forces.hpp"
+#include "solver/error.hpp"
 #include "solver/fields/discretisation.hpp"
 #include "solver/fields/field_algebra.hpp"
 #include "solver/loads/end_effect.hpp"
@@ -316,9 +317,57 @@ Amount component_of_turning(const std::array<Amount, 3>& given, const std::vecto
 /// Cosines of angles are known to this.
 constexpr double rounding_of_axes = 1e-12;
 
+constexpr const char* lacking = "the elements of the model around them have no such component";
+
+std::string lost_force(double value, solver::Component component) {
+  return fmt::format(
+      "FORCE_NODALE: turned by ANGL_NAUT the force has {:.3g} along {}, which none of these nodes carries", value,
+      solver::name_of(component));
+}
+
+bool is_lost(double value, double largest) { return std::abs(value) > rounding_of_axes * largest; }
+
+using LostAmounts = std::vector<std::pair<solver::Component, Amount>>;
+
+// What functions make of the components that no node carries is known where they are evaluated.
+Amount unless_lost(const Amount& amount, const std::array<Amount, 3>& given, const LostAmounts& others) {
+  return {0.0, [=](const solver::Point& at, double time) {
+            double largest = 0.0;
+            for (const Amount& each : given) largest = std::max(largest, std::abs(each.at(at, time)));
+            for (const auto& [component, other] : others)
+              if (const double value = other.at(at, time); is_lost(value, largest))
+                throw solver::Error("unknown-component", lost_force(value, component), lacking);
+            return amount.at(at, time);
+          }};
+}
+
+// Of forces or moments in turned axes.
+void add_turned(const Keywords& force, const std::array<Amount, 3>& given, std::size_t first,
+                const std::vector<int>& nodes, const LoadedModel& target, NodeForces& forces) {
+  const std::vector<Amount> angles = angles_of(force);
+  const double largest = std::max({std::abs(given[0].value), std::abs(given[1].value), std::abs(given[2].value)});
+  std::vector<std::pair<solver::Component, Amount>> carried;
+  LostAmounts lost;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto component = force_keywords[first + i].component;
+    const Amount amount = component_of_turning(given, angles, static_cast<Eigen::Index>(i));
+    const bool carries = std::ranges::any_of(nodes, [&](int node) { return target.dofs.dof(node, component) >= 0; });
+    if (!carries && is_lost(amount.value, largest))
+      throw DiagnosticError("unknown-component", lost_force(amount.value, component), force.span, lacking);
+    if (carries || amount.function) (carries ? carried : lost).emplace_back(component, amount);
+  }
+  if (carried.empty() && !lost.empty())
+    throw DiagnosticError("unknown-component",
+                          fmt::format("FORCE_NODALE: none of these nodes carries {}", solver::name_of(lost[0].first)),
+                          force.span, lacking);
+  for (const auto& [component, amount] : carried)
+    for (const int node : nodes)
+      if (target.dofs.dof(node, component) >= 0)
+        forces[{node, component}] = lost.empty() ? amount : unless_lost(amount, given, lost);
+}
+
 void add_turned_forces(const Keywords& force, const std::vector<int>& nodes, const LoadedModel& target,
                        NodeForces& forces) {
-  const std::vector<Amount> angles = angles_of(force);
   for (const std::size_t first : {std::size_t{0}, std::size_t{3}}) {
     std::array<Amount, 3> given;
     bool any = false;
@@ -326,23 +375,7 @@ void add_turned_forces(const Keywords& force, const std::vector<int>& nodes, con
       given[i] = amount_of(force, force_keywords[first + i].keyword);
       any |= force.given(force_keywords[first + i].keyword);
     }
-    if (!any) continue;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto component = force_keywords[first + i].component;
-      const Amount amount = component_of_turning(given, angles, static_cast<Eigen::Index>(i));
-      const auto carried = [&](int node) { return target.dofs.dof(node, component) >= 0; };
-      for (const int node : nodes)
-        if (carried(node)) forces[{node, component}] = amount;
-      const double largest = std::max({std::abs(given[0].value), std::abs(given[1].value), std::abs(given[2].value)});
-      if (std::abs(amount.value) > rounding_of_axes * largest && std::ranges::none_of(nodes, carried)) {
-        throw DiagnosticError(
-            "unknown-component",
-            fmt::format(
-                "FORCE_NODALE: turned by ANGL_NAUT the force has {:.3g} along {}, which none of these nodes carries",
-                amount.value, solver::name_of(component)),
-            force.span, "the elements of the model around them have no such component");
-      }
-    }
+    if (any) add_turned(force, given, first, nodes, target, forces);
   }
 }
 
