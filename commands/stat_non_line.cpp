@@ -251,6 +251,7 @@ Scene scene_of(const Call& call) {
   product->result.model = product->problem.model;
   check_driven(call, product->problem);
   check_initial_stresses(call, product->problem);
+  check_turned_beams(call, product->problem, initial.behaviours.get());
   solver::NewtonOptions options = newton_options(call, product->result.mesh());
   solver::StepPlan steps = steps_of(call.factor("INCREMENT"), initial.instant);
   if (steps.adaptation) steps.adaptation->usual_iterations = options.max_iterations / 2;

@@ -9,6 +9,7 @@
 #include "commands/analysis/result_reading.hpp"
 #include "commands/analysis/same_mesh.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/fields/beam_forces.hpp"
 #include "solver/fields/discretisation.hpp"
 
 namespace comma::commands {
@@ -153,6 +154,40 @@ void check_initial_stresses(const interpreter::Call& call, const solver::StaticP
                     by_displacement ? "displacement" : "internal variables"),
         keywords.span_of("SIGM"),
         by_displacement ? "give DEPL, or another RELATION" : "give VARI too, or take DEFORMATION='GDEF_LOG'");
+  }
+}
+
+void check_turned_beams(const interpreter::Call& call, const solver::StaticProblem& problem,
+                        const solver::BehaviourOfCells* before) {
+  if (!problem.initial || !problem.initial->displacement || !problem.initial->stresses) return;
+  const Keywords& keywords = call.factor("ETAT_INIT");
+  if (keywords.has("SIGM")) {
+    const auto& own = keywords.data<FieldConcept>("SIGM").behaviours;
+    if (own) before = own.get();
+  }
+  const auto cell_count = static_cast<std::size_t>(problem.model->mesh->cell_count());
+  if (before == nullptr || before->size() != cell_count) return;
+  // Forces that turn by a thousandth are what small displacements leave out in any case.
+  constexpr double small_turn = 1e-3;
+  const auto& variables = problem.initial->variables;
+  const auto axes =
+      solver::turned_axes(*problem.model, *before, *problem.initial->displacement, variables ? &*variables : nullptr);
+  for (const auto& [cell, now] : axes) {
+    const bool turns_on =
+        problem.behaviours && !problem.behaviours->empty() &&
+        (*problem.behaviours)[static_cast<std::size_t>(cell)].kinematics == solver::Kinematics::large_rotations;
+    const auto section = problem.properties->sections.find(cell);
+    if (turns_on || section == problem.properties->sections.end()) continue;
+    const auto first = solver::own_axes(*problem.model->mesh, cell, section->second.roll);
+    const Eigen::Matrix3d turn = now - first;
+    if (!(turn.topRows(variables ? 3 : 1).cwiseAbs().maxCoeff() > small_turn)) continue;
+    throw DiagnosticError(
+        "unsupported",
+        fmt::format(
+            "ETAT_INIT: beam {} was turned by DEFORMATION='GROT_GDEP', and goes on in small displacements, where "
+            "its forces would act along the axes that it began with",
+            problem.model->mesh->cell_name(cell)),
+        keywords.span_of(keywords.has("EVOL_NOLI") ? "EVOL_NOLI" : "SIGM"), "go on with DEFORMATION='GROT_GDEP'");
   }
 }
 

@@ -26,4 +26,9 @@ InitialStateChoice initial_state(const interpreter::Call& call);
 /// displacements are given too they are taken for a state of the law.
 void check_initial_stresses(const interpreter::Call& call, const solver::StaticProblem& problem);
 
+/// Throws DiagnosticError `unsupported` where a beam that GROT_GDEP has turned goes on in small displacements: its
+/// forces are along axes that it has no longer.
+void check_turned_beams(const interpreter::Call& call, const solver::StaticProblem& problem,
+                        const solver::BehaviourOfCells* before);
+
 }  // namespace comma::commands

@@ -15,7 +15,6 @@ namespace comma::solver {
 
 namespace {
 
-constexpr int variables_of_beam = 3;
 constexpr int roll_variable = 1;
 using Vector12d = Eigen::Matrix<double, 12, 1>;
 /// What turns the axes in a step: the displacement of the second node relative to the first, and the mean of the
@@ -171,12 +170,12 @@ class RotatingBeam final : public ElementBlock {
     }
   }
 
-  int variable_count() const override { return variables_of_beam; }
+  int variable_count() const override { return rotating_beam_variables; }
   void variables(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const Trial now = trial(element, u);
       for (int point = 0; point < point_count(); ++point) {
-        double* own = out.data() + (point_count() * element + point) * variables_of_beam;
+        double* own = out.data() + (point_count() * element + point) * rotating_beam_variables;
         own[0] = 0.0;
         own[roll_variable] = roll_of(now.axes);
         own[2] = now.elongation;
@@ -204,7 +203,8 @@ class RotatingBeam final : public ElementBlock {
   void resume(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported,
               std::span<const double> variables) override {
     for (int element = 0; element < map_.element_count(); ++element) {
-      const double* own = variables.empty() ? nullptr : variables.data() + point_count() * variables_of_beam * element;
+      const double* own =
+          variables.empty() ? nullptr : variables.data() + point_count() * rotating_beam_variables * element;
       const double roll =
           own == nullptr ? members_[static_cast<std::size_t>(element)].section->roll : own[roll_variable];
       begin(element, u, roll, reported.empty() ? Vector12d::Zero().eval() : end_forces(reported.data() + 12 * element));

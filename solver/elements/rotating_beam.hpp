@@ -20,6 +20,9 @@ namespace comma::solver {
 /// whose properties do, what make_slender_block() does else.
 std::unique_ptr<ElementBlock> make_rotating_beam_block(const BlockInput& input, std::vector<int> cells);
 
+/// Internal variables at each point.
+inline constexpr int rotating_beam_variables = 3;
+
 /// Own axes (rows) of such a beam that has moved, from its chord now (first node to second) and its internal variables.
 Eigen::Matrix3d rotated_axes(const Eigen::Vector3d& chord, std::span<const double> variables);
 

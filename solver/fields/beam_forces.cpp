@@ -1,11 +1,13 @@
 #include "solver/fields/beam_forces.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 #include <memory>
 #include <utility>
 
+#include "solver/elements/rotating_beam.hpp"
 #include "solver/elements/slender_forces.hpp"
 #include "solver/fields/extrapolation.hpp"
 #include "solver/model/stress_names.hpp"
@@ -53,6 +55,30 @@ class SpanLoads {
 };
 
 }  // namespace
+
+TurnedAxes turned_axes(const Model& model, const BehaviourOfCells& behaviours, const NodalField& displacement,
+                       const ElementField* variables) {
+  const Mesh& mesh = *model.mesh;
+  const std::array columns = {displacement.component("DX"), displacement.component("DY"), displacement.component("DZ")};
+  const auto place = [&](int node) {
+    Eigen::Vector3d at = Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data());
+    for (int c = 0; c < 3; ++c) at[c] += displacement.at(node, columns[static_cast<std::size_t>(c)]);
+    return at;
+  };
+  TurnedAxes axes;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    if (behaviours[static_cast<std::size_t>(cell)].kinematics != Kinematics::large_rotations ||
+        !is_beam(model.formulations[static_cast<std::size_t>(cell)]))
+      continue;
+    const auto nodes = mesh.cell(cell);
+    std::array<double, rotating_beam_variables> own{};
+    if (variables != nullptr && variables->points(cell) > 0)
+      for (int v = 0; v < std::min<int>(own.size(), variables->components.size()); ++v)
+        own[static_cast<std::size_t>(v)] = variables->at(cell, 0, v);
+    axes.emplace(cell, rotated_axes(place(nodes[1]) - place(nodes[0]), own));
+  }
+  return axes;
+}
 
 ElementField end_section_forces(const ForceInput& input, const ElementField& at_nodes,
                                 std::span<const AppliedLoad> loads, double time, const TurnedAxes& turned) {

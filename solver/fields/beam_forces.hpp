@@ -8,11 +8,17 @@
 
 #include "solver/elements/external_forces.hpp"
 #include "solver/fields/field.hpp"
+#include "solver/model/behaviour.hpp"
 
 namespace comma::solver {
 
 /// Own axes (rows) of the beams that have turned, by cell.
 using TurnedAxes = std::map<int, Eigen::Matrix3d>;
+
+/// Those of the beams that turn as far as they like (rotating_beam.hpp), from DEPL and VARI_ELGA. Where that is null
+/// the first axes are right, and the others roll about them.
+TurnedAxes turned_axes(const Model& model, const BehaviourOfCells& behaviours, const NodalField& displacement,
+                       const ElementField* variables);
 
 /// Section forces at element nodes (N VY VZ MT MFY MFZ as elements have them) out of SIEF_ELNO. In
 /// beams under forces per length, weight or rotation the ends' displacements alone leave out what the load does between

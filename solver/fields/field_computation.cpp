@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/rotating_beam.hpp"
 #include "solver/error.hpp"
+#include "solver/fields/beam_forces.hpp"
 #include "solver/fields/beam_stresses.hpp"
 #include "solver/fields/energies.hpp"
 #include "solver/fields/equivalent.hpp"
@@ -313,8 +313,11 @@ Field FieldComputation::section_force_field(std::size_t step) { return section_f
 
 Field FieldComputation::end_forces(std::size_t step) {
   const ForceInput forces{*problem_.model, *problem_.materials, *problem_.properties, dofs_, &assembler_.state()};
-  return end_section_forces(forces, forces_at_nodes(step), problem_.loads, result_.steps[step].instant,
-                            turned_axes(step));
+  TurnedAxes axes;
+  if (has_beams_that_turn())
+    axes = turned_axes(*problem_.model, *problem_.behaviours, displacement(step),
+                       &std::get<ElementField>(remembered("VARI_ELGA", step)));
+  return end_section_forces(forces, forces_at_nodes(step), problem_.loads, result_.steps[step].instant, axes);
 }
 
 Field FieldComputation::fibre_stresses(std::size_t step) {
@@ -591,40 +594,18 @@ Field FieldComputation::energy_of_loading(std::size_t step) {
                                     element_field("VARI_ELGA", step), problem_.behaviours.get()});
 }
 
-std::vector<int> FieldComputation::beams_that_turn() const {
-  std::vector<int> cells;
-  if (!problem_.behaviours) return cells;
-  for (int cell = 0; cell < problem_.model->mesh->cell_count(); ++cell)
-    if ((*problem_.behaviours)[static_cast<std::size_t>(cell)].kinematics == Kinematics::large_rotations &&
-        is_beam(problem_.model->formulations[static_cast<std::size_t>(cell)]))
-      cells.push_back(cell);
-  return cells;
-}
-
-TurnedAxes FieldComputation::turned_axes(std::size_t step) {
-  TurnedAxes axes;
-  const std::vector<int> cells = beams_that_turn();
-  if (cells.empty()) return axes;
-  const auto& variables = std::get<ElementField>(remembered("VARI_ELGA", step));
-  const Eigen::VectorXd u = to_dofs(displacement(step), dofs_);
-  const Mesh& mesh = *problem_.model->mesh;
-  const auto place = [&](int node) {
-    Eigen::Vector3d at = Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data());
-    for (int c = 0; c < 3; ++c) at[c] += u[dofs_.dof(node, static_cast<Component>(c))];
-    return at;
-  };
-  const std::size_t width = variables.components.size();
-  for (const int cell : cells) {
-    const auto nodes = mesh.cell(cell);
-    const double* own = variables.values.data() + static_cast<std::size_t>(variables.starts[cell]) * width;
-    axes.emplace(cell, rotated_axes(place(nodes[1]) - place(nodes[0]), {own, width}));
-  }
-  return axes;
+bool FieldComputation::has_beams_that_turn() const {
+  if (!problem_.behaviours) return false;
+  for (std::size_t cell = 0; cell < problem_.behaviours->size(); ++cell)
+    if ((*problem_.behaviours)[cell].kinematics == Kinematics::large_rotations &&
+        is_beam(problem_.model->formulations[cell]))
+      return true;
+  return false;
 }
 
 // Forces act along the axes of beams as the step left them, which their variables hold.
 void FieldComputation::turn_beams(Assembler& assembler, const DofMap& dofs, std::size_t step) {
-  if (beams_that_turn().empty()) return;
+  if (!has_beams_that_turn()) return;
   assembler.resume(to_dofs(displacement(step), dofs), &std::get<ElementField>(remembered("SIEF_ELGA", step)),
                    &std::get<ElementField>(remembered("VARI_ELGA", step)));
 }

@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "solver/elements/assembler.hpp"
-#include "solver/fields/beam_forces.hpp"
 #include "solver/fields/continuum_points.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
@@ -117,9 +116,7 @@ class FieldComputation {
   bool began_with_stresses() const;
   void require_no_initial_stresses(std::string_view name, std::size_t step);
   Field internal_forces(std::size_t step);
-  std::vector<int> beams_that_turn() const;
-  /// Of these beams, as the step left them.
-  TurnedAxes turned_axes(std::size_t step);
+  bool has_beams_that_turn() const;
   void turn_beams(Assembler& assembler, const DofMap& dofs, std::size_t step);
   Field internal_forces_of(std::span<const int> cells, std::size_t step);
   Field reactions(std::size_t step);
