@@ -13,12 +13,26 @@ constexpr int most_passes = 8;
 
 double power_of_two_near(double value) { return std::ldexp(1.0, static_cast<int>(std::lround(std::log2(value)))); }
 
-Eigen::VectorXd diagonal_factors(const SymmetricMatrix& matrix, const Eigen::VectorXd& maxima) {
-  const Eigen::VectorXd diagonal = matrix.diagonal();
-  Eigen::VectorXd factors(matrix.rows());
+/// Rows without a diagonal entry go by what their entries become in the columns of the others.
+Eigen::VectorXd diagonal_factors(const SymmetricMatrix& matrix) {
+  const Eigen::VectorXd diagonal = matrix.diagonal(), maxima = row_maxima(matrix);
+  Eigen::VectorXd factors = Eigen::VectorXd::Ones(matrix.rows());
+  for (Eigen::Index row = 0; row < factors.size(); ++row)
+    if (diagonal[row] != 0.0) factors[row] = power_of_two_near(1.0 / std::sqrt(std::abs(diagonal[row])));
+  Eigen::VectorXd beside = Eigen::VectorXd::Zero(matrix.rows());
+  for (int column = 0; column < matrix.outerSize(); ++column) {
+    for (SymmetricMatrix::InnerIterator entry(matrix, column); entry; ++entry) {
+      const double size = std::abs(entry.value());
+      if (diagonal[column] != 0.0) beside[entry.row()] = std::max(beside[entry.row()], size * factors[column]);
+      if (diagonal[entry.row()] != 0.0) beside[column] = std::max(beside[column], size * factors[entry.row()]);
+    }
+  }
   for (Eigen::Index row = 0; row < factors.size(); ++row) {
-    const double size = diagonal[row] != 0.0 ? std::abs(diagonal[row]) : maxima[row];
-    factors[row] = size > 0.0 ? power_of_two_near(1.0 / std::sqrt(size)) : 1.0;
+    if (diagonal[row] != 0.0) continue;
+    if (beside[row] > 0.0)
+      factors[row] = power_of_two_near(1.0 / beside[row]);
+    else if (maxima[row] > 0.0)
+      factors[row] = power_of_two_near(1.0 / std::sqrt(maxima[row]));
   }
   return factors;
 }
@@ -48,7 +62,7 @@ SymmetricMatrix scaled(const SymmetricMatrix& matrix, const Eigen::VectorXd& fac
 }
 
 Eigen::VectorXd equilibration_factors(const SymmetricMatrix& matrix) {
-  Eigen::VectorXd factors = diagonal_factors(matrix, row_maxima(matrix));
+  Eigen::VectorXd factors = diagonal_factors(matrix);
   for (int pass = 0; pass < most_passes; ++pass) {
     const Eigen::VectorXd maxima = row_maxima(scaled(matrix, factors));
     if (maxima.size() == 0 || maxima.maxCoeff() <= dominated) break;

@@ -5,10 +5,10 @@
 
 namespace comma::solver {
 
-/// Powers of two s (n) such that S A S has diagonal entries in [1/2, 2). Where the diagonal is zero or is dominated by
-/// the rest of its row, the largest entry of the row is brought near 1 instead (Ruiz, "A scaling algorithm to
-/// equilibrate both rows and columns norms in matrices", RAL-TR-2001-034). Being powers of two, they change no digit. A
-/// row of zeros gets 1.
+/// Powers of two s (n) such that S A S has diagonal entries in [1/2, 2). Where the diagonal is zero, the largest entry
+/// of the row that lies beside others is brought near 1 as these are scaled, and where the rest of its row dominates
+/// the diagonal, the largest entry of the row is (Ruiz, "A scaling algorithm to equilibrate both rows and columns norms
+/// in matrices", RAL-TR-2001-034). Being powers of two, they change no digit. A row of zeros gets 1.
 Eigen::VectorXd equilibration_factors(const SymmetricMatrix& matrix);
 
 /// S A S.

@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
+#include "solver/linear/equilibration.hpp"
 
 using namespace comma::solver;
 
@@ -102,6 +103,23 @@ TEST_CASE("a saddle point with a zero diagonal needs MUMPS, which is therefore c
   solver->analyse(lower_triangle(dense));
   CHECK(solver->factorise(lower_triangle(dense)).verdict == FactorVerdict::indefinite);
   CHECK(solve_error(*solver, dense, random_integers(3, 3, 7)) <= 1e-15);
+}
+
+TEST_CASE("a pressure that only ties others is no sign of singularity, whatever their stiffness") {
+  // A displacement, a pressure and a change of volume: the pressure has no stiffness of its own.
+  const double side = 0x1p-6, volume = 0x1p-13;
+  for (const double stiffness : {0x1p-10, 1.0, 0x1p37}) {
+    CAPTURE(stiffness);
+    Eigen::Matrix3d dense;
+    dense << stiffness, side, 0, side, 0, -volume, 0, -volume, stiffness * volume;
+    auto solver = make_linear_solver(LinearMethod::mumps, {});
+    solver->analyse(lower_triangle(dense));
+    CHECK(solver->factorise(lower_triangle(dense)).verdict == FactorVerdict::indefinite);
+    const Eigen::VectorXd maxima =
+        row_maxima(scaled(lower_triangle(dense), equilibration_factors(lower_triangle(dense))));
+    CHECK(maxima.minCoeff() >= 0.5);
+    CHECK(maxima.maxCoeff() <= 2.0);
+  }
 }
 
 TEST_CASE("without interchanges a saddle point may have no pivot where MUMPS has two") {
