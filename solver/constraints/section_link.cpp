@@ -132,13 +132,15 @@ LinearRelation mean_rotation(const SectionIntegrals& section, int beam_node, int
   return relation;
 }
 
-SectionLink link_of(const SectionIntegrals& integrals, const Mesh& mesh, int beam_node, const Origin& origin) {
+/// `space`: of how many dimensions the bodies move in.
+SectionLink link_of(const SectionIntegrals& integrals, int space, const Mesh& mesh, int beam_node,
+                    const Origin& origin) {
   SectionLink link;
   link.centroid = integrals.centroid;
   link.offset = (Eigen::Vector3d(mesh.nodes[beam_node].data()) - integrals.centroid).norm();
   link.size = std::sqrt(0.5 * integrals.inertia.trace());
-  const int first_turn = mesh.dimension == 3 ? 0 : 2;
-  for (int axis = 0; axis < mesh.dimension; ++axis)
+  const int first_turn = space == 3 ? 0 : 2;
+  for (int axis = 0; axis < space; ++axis)
     link.relations.push_back(mean_translation(integrals, beam_node, axis, origin));
   for (int axis = first_turn; axis < 3; ++axis) {
     link.relations.push_back(mean_rotation(integrals, beam_node, axis, first_turn, link.size, origin));
@@ -149,12 +151,13 @@ SectionLink link_of(const SectionIntegrals& integrals, const Mesh& mesh, int bea
 }  // namespace
 
 SectionLink section_link(const Mesh& mesh, std::span<const int> section, int beam_node, const Origin& origin) {
-  return link_of(integrate(mesh, points_of(mesh, section)), mesh, beam_node, origin);
+  return link_of(integrate(mesh, points_of(mesh, section)), mesh.dimension, mesh, beam_node, origin);
 }
 
 SectionLink plate_section_link(const Mesh& mesh, std::span<const PlateEdge> section, const Eigen::Vector3d& axis,
                                int beam_node, const Origin& origin) {
-  return link_of(integrate(mesh, points_of(mesh, section, axis)), mesh, beam_node, origin);
+  // Plates move in space, though their mesh may be flat.
+  return link_of(integrate(mesh, points_of(mesh, section, axis)), 3, mesh, beam_node, origin);
 }
 
 }  // namespace comma::solver
