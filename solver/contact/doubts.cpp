@@ -1,10 +1,13 @@
 #include "solver/contact/doubts.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
+#include "solver/contact/contact_points.hpp"
 #include "solver/contact/extent.hpp"
+#include "solver/contact/face_rule.hpp"
 #include "solver/contact/patch_points.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/cell_type.hpp"
@@ -16,7 +19,8 @@ namespace {
 /// How far outside a slave face, in its reference coordinates, a master node still faces it.
 constexpr double border = 1e-6;
 
-/// The same surfaces the other way round, master nodes facing slave faces.
+/// The same surfaces the other way round, master nodes facing slave faces: watched, so that the middle nodes of
+/// quadratic faces count too.
 ContactDefinition turned(const ContactDefinition& definition, const ContactZone& zone) {
   ContactDefinition result;
   result.smooth_normals = definition.smooth_normals;
@@ -29,6 +33,7 @@ ContactDefinition turned(const ContactDefinition& definition, const ContactZone&
   other.slave_thickness = zone.master_thickness;
   other.half_thickness = zone.half_thickness;
   other.projection_tolerance = border;
+  other.resolved = false;
   return result;
 }
 
@@ -76,7 +81,7 @@ void note_soft_penalty(ContactDoubt doubt, double reach, double size, ContactDou
 PassedMaster::Depths PassedMaster::depths(const ContactZone& zone, Positions positions, double time) const {
   Depths result;
   for (const ContactPair& pair : pair_surfaces(turned(definition_, zone), mesh_, positions, time)) {
-    if (pair.status != PairingStatus::paired) continue;
+    if (pair.status != PairingStatus::watched) continue;
     result.size = std::max(result.size, extent(mesh_, pair.facet));
     result.depth.emplace(pair.slave, -gap_at(pair, mesh_, positions));
   }
@@ -98,23 +103,41 @@ void PassedMaster::look(Positions positions, std::span<const double> pushed_back
   }
 }
 
+const std::unordered_map<int, double>& PassedMaster::shares(int index) {
+  const auto [known, is_new] = shares_.try_emplace(index);
+  if (!is_new) return known->second;
+  for (const int cell : definition_.zones[static_cast<std::size_t>(index)].master_cells) {
+    const CellType type = mesh_.cell_types[static_cast<std::size_t>(cell)];
+    const auto nodes = mesh_.cell(cell);
+    std::array<double, max_facet_nodes> own{};
+    for (const FacePoint& at : face_rule(type, ContactRule::gauss, 0)) {
+      const FacetShape shape = facet_shape(type, at.xi);
+      const double area = at.weight * initial_stretch(mesh_, cell, at.xi, false);
+      for (std::size_t i = 0; i < nodes.size(); ++i) own[i] += area * shape.values[i];
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) known->second[nodes[i]] += std::abs(own[i]);
+  }
+  return known->second;
+}
+
 void PassedMaster::look_at(int index, Positions positions, double pushed, double time) {
   const ContactZone& zone = definition_.zones[static_cast<std::size_t>(index)];
   if (!initial_.contains(index)) initial_.emplace(index, depths(zone, places(mesh_), time));
   const Depths& before = initial_.at(index);
   const Depths now = depths(zone, positions, time);
-  double sum = 0.0;
-  int touching = 0;
+  const std::unordered_map<int, double>& share = shares(index);
+  double sum = 0.0, touching = 0.0;
   for (const auto& [node, depth] : now.depth) {
     if (depth < -doubtful_share * pushed) continue;
     const auto known = before.depth.find(node);
     // Where nothing pushes back nothing tells touching nodes from those that other parts of the bodies hide: what lay
     // in front does.
     if (!(pushed > 0.0) && (known == before.depth.end() || known->second > 0.0)) continue;
-    sum += std::max(0.0, depth - (known == before.depth.end() ? 0.0 : std::max(0.0, known->second)));
-    ++touching;
+    const double passed = std::max(0.0, depth - (known == before.depth.end() ? 0.0 : std::max(0.0, known->second)));
+    sum += share.at(node) * passed;
+    touching += share.at(node);
   }
-  const double mean = touching > 0 ? sum / touching : 0.0;
+  const double mean = touching > 0.0 ? sum / touching : 0.0;
   if (mean > rounding_of_place * now.size) deepest_[index] = std::max(deepest_[index], mean);
 }
 

@@ -96,6 +96,7 @@ void note_soft_penalty(ContactDoubt doubt, double reach, double size, ContactDou
 
 /// Doubts of kind `passed_master`: on the mean, the master nodes that touch the slave side or are inside it have gone
 /// in, beyond where the mesh has them at first, by more than `doubtful_passage` of the most that contact pushes back.
+/// Each counts by what it stands for of the faces: the middle nodes of quadratic ones bear most of what presses there.
 /// Zones of local averages see all of the master side and have none, nor have those whose penalty is known to be soft.
 /// Where contact pushes nothing back at all, master nodes count that lay in front of the slave side at first and are
 /// behind it.
@@ -115,6 +116,7 @@ class PassedMaster {
     std::unordered_map<int, double> depth;  ///< of the master nodes that face the slave side; negative outside
   };
   void look_at(int index, Positions positions, double pushed, double time);
+  const std::unordered_map<int, double>& shares(int index);
   Depths depths(const ContactZone& zone, Positions positions, double time) const;
 
   const ContactDefinition& definition_;
@@ -122,6 +124,8 @@ class PassedMaster {
   std::map<int, double> pushed_back_;        ///< by zone, the most
   std::unordered_map<int, Depths> initial_;  ///< by zone
   std::map<int, double> deepest_;            ///< by zone, on the mean
+  /// By zone, of the master nodes: the magnitude of the integral of their shape functions.
+  std::unordered_map<int, std::unordered_map<int, double>> shares_;
 };
 
 /// By how much a slave node stands off its place on the facet, along the pair's normal; negative where it has gone in.

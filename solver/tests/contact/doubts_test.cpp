@@ -181,3 +181,26 @@ TEST_CASE("A penalty is doubted where points lie deep beside what holds them, no
   CHECK(told(1e-5, 2e-3) == 0);
   CHECK(told(1.7e-59, 4e-58) == 0);
 }
+
+TEST_CASE("Middle nodes of a quadratic master that go through a linear slave are told of, though its corners cannot") {
+  Mesh mesh;
+  mesh.dimension = 3;
+  mesh.nodes = {{-1, -1, 0}, {2, -1, 0},  {2, 2, 0},   {-1, 2, 0},    // the slave side
+                {0, 0, 0},   {1, 0, 0},   {1, 1, 0},   {0, 1, 0},     // and the master's corners,
+                {0.5, 0, 0}, {1, 0.5, 0}, {0.5, 1, 0}, {0, 0.5, 0}};  // and middle nodes
+  ContactZone zone;
+  zone.slave_cells = {mesh.add_cell(CellType::quad4, std::vector<int>{0, 3, 2, 1})};
+  zone.master_cells = {mesh.add_cell(CellType::quad8, std::vector<int>{4, 5, 6, 7, 8, 9, 10, 11})};
+  ContactDefinition definition;
+  definition.zones.push_back(zone);
+  std::vector<Eigen::Vector3d> places;
+  for (const auto& at : mesh.nodes) places.emplace_back(at.data());
+  for (int middle = 8; middle < 12; ++middle) places[static_cast<std::size_t>(middle)][2] = 0.1;
+  PassedMaster passed(definition, mesh);
+  ContactDoubts found;
+  passed.look(places, std::vector<double>{1.0}, 0.0);
+  passed.conclude(found);
+  REQUIRE(found.all().size() == 1);
+  // Middle nodes stand for a third of the face each, corners for a twelfth.
+  CHECK(found.all().front().share == exactly(0.1 * (4.0 / 3.0) / (4.0 / 3.0 + 4.0 / 12.0)));
+}
