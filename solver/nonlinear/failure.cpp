@@ -206,10 +206,11 @@ void throw_condensed_limit(int limit, const ContactDefinition& contact, bool has
   const std::string message = fmt::format(
       "the contact status did not settle within {} iterations on the contact rows{}", limit, but_for_contact(unheld));
   if (has_negative_weight)
-    throw Error("contact-cycling",
-                message + "; a point of negative weight pulls where it is closed, and no set of statuses need hold",
-                "take another order of Gauss's rule: on triangles that of ORDRE_INT=3 has such points, those of 2 and "
-                "4 have not");
+    throw Error(
+        "contact-cycling",
+        message + "; a point of negative weight pulls where it is closed, and no set of statuses need hold",
+        "take another rule: on triangles GAUSS of ORDRE_INT=3 and NCOTES of 4 have such points, GAUSS of 2 and 4 "
+        "and SIMPSON have not");
   constexpr double strong_friction = 1.0;
   double friction = 0.0;
   for (const ContactZone& zone : contact.zones) friction = std::max(friction, zone.mixed.friction);
