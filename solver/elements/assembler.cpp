@@ -4,13 +4,12 @@
 #include <cmath>
 #include <functional>
 #include <map>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "solver/elements/cell_material.hpp"
+#include "solver/elements/block_fields.hpp"
 #include "solver/elements/discrete_forces.hpp"
 #include "solver/elements/element_block.hpp"
 #include "solver/elements/external_forces.hpp"
@@ -18,12 +17,10 @@
 #include "solver/elements/imposed_strains.hpp"
 #include "solver/elements/inelastic_bar.hpp"
 #include "solver/elements/rotating_beam.hpp"
-#include "solver/elements/slender_forces.hpp"
 #include "solver/elements/sparse_pattern.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/field_algebra.hpp"
 #include "solver/fields/plate_stresses.hpp"
-#include "solver/materials/elasticity.hpp"
 #include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
@@ -90,130 +87,8 @@ std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<in
 }
 
 /// The names V1, V2 ... of internal variables.
-std::vector<std::string> variable_names(int count) {
-  std::vector<std::string> names;
-  for (int k = 1; k <= count; ++k) names.push_back(fmt::format("V{}", k));
-  return names;
-}
-
-std::vector<std::string> stress_names(const ElementBlock& block) {
-  return {block.stress_names().begin(), block.stress_names().end()};
-}
-
-std::vector<int> starts_of(const std::vector<int>& counts) {
-  std::vector<int> starts(counts.size() + 1, 0);
-  std::partial_sum(counts.begin(), counts.end(), starts.begin() + 1);
-  return starts;
-}
-
-/// Values of one block (cells x points x names) into a field whose components are those of all blocks.
-void write_block(const ElementBlock& block, const std::vector<std::string>& names, const std::vector<double>& values,
-                 ElementField& field) {
-  std::vector<int> columns;
-  for (const auto& name : names) columns.push_back(field.component(name));
-  const double* value = values.data();
-  for (const int cell : block.cells()) {
-    for (int point = field.starts[cell]; point < field.starts[cell + 1]; ++point) {
-      double* target = field.values.data() + static_cast<std::size_t>(point) * field.components.size();
-      for (const int column : columns) target[column] = *value++;
-    }
-  }
-}
-
-[[noreturn]] void throw_other_points(const ElementField& field, int cell, const Mesh& mesh, int points) {
-  throw Error("incompatible-field",
-              fmt::format("the field {} has {} values on cell {}, where the element has {}", field.quantity,
-                          field.points(cell), mesh.cell_name(cell), points),
-              "take a field of a result of the same elements there (CREA_CHAMP, OPERATION='EXTR', then 'ASSE')");
-}
-
-/// The way back: what a field has on one cell.
-void read_cell(int cell, const ElementBlock& block, const std::vector<std::string>& names, const ElementField& field,
-               const Mesh& mesh, std::vector<double>& values) {
-  if (field.points(cell) != block.point_count()) throw_other_points(field, cell, mesh, block.point_count());
-  for (int point = 0; point < block.point_count(); ++point) {
-    for (const auto& name : names) {
-      const int column = field.component(name);
-      const double value = column < 0 ? absent : field.at(cell, point, column);
-      if (std::isnan(value))
-        throw Error("incompatible-field",
-                    fmt::format("the field {} has no {} on cell {}", field.quantity, name, mesh.cell_name(cell)),
-                    field.quantity == "SIEF_R" ? "PROL_ZERO='OUI' of CREA_CHAMP makes zero what is not named" : "");
-      values.push_back(value);
-    }
-  }
-}
-
-/// Empty without a field.
-std::vector<double> read_block(const ElementBlock& block, const std::vector<std::string>& names,
-                               const ElementField* field, const Mesh& mesh) {
-  if (field == nullptr) return {};
-  std::vector<double> values;
-  values.reserve(block.cells().size() * static_cast<std::size_t>(block.point_count()) * names.size());
-  for (const int cell : block.cells()) read_cell(cell, block, names, *field, mesh, values);
-  return values;
-}
-
-/// The same of stresses. A cell without stress is one whatever points and components the zeros stand for: what made the
-/// field knew the model alone, and how many points springs and plates have depends on their stiffness and layers.
-std::vector<double> read_stresses(const ElementBlock& block, const ElementField* field, const Mesh& mesh) {
-  if (field == nullptr) return {};
-  const std::vector<std::string> names = stress_names(block);
-  const std::size_t each = static_cast<std::size_t>(block.point_count()) * names.size();
-  std::vector<double> values;
-  values.reserve(block.cells().size() * each);
-  for (const int cell : block.cells()) {
-    if (is_zero(*field, cell))
-      values.insert(values.end(), each, 0.0);
-    else
-      read_cell(cell, block, names, *field, mesh, values);
-  }
-  return values;
-}
-
-/// The stresses of a field on some cells, point after point, in the order of the components of `layout`, which has as
-/// many values a cell, or all are zero; NaN without one.
-std::vector<double> values_on(std::span<const int> cells, const ElementField& layout, const ElementField& field,
-                              const Mesh& mesh) {
-  std::vector<double> values;
-  for (const int cell : cells) {
-    if (is_zero(field, cell)) {
-      values.insert(values.end(), static_cast<std::size_t>(layout.points(cell)) * layout.components.size(), 0.0);
-      continue;
-    }
-    if (field.points(cell) != layout.points(cell)) throw_other_points(field, cell, mesh, layout.points(cell));
-    for (int point = 0; point < field.points(cell); ++point)
-      for (const auto& name : layout.components) {
-        const int column = field.component(name);
-        values.push_back(column < 0 ? absent : field.at(cell, point, column));
-      }
-  }
-  return values;
-}
-
 /// Of a solid; more of them are no stresses.
 constexpr std::size_t solid_stress_count = 6;
-
-/// Stresses of a load: what a cell that has some does not carry is zero; a cell without, with zeros, or with those of
-/// other elements alone, has none.
-std::vector<double> read_initial_stresses(const ElementBlock& block, const ElementField& field, const Mesh& mesh) {
-  std::vector<int> columns;
-  for (const auto& name : stress_names(block)) columns.push_back(field.component(name));
-  std::vector<double> values;
-  for (const int cell : block.cells()) {
-    if (block.point_count() == 0) continue;  // plates
-    const int points = is_zero(field, cell) ? 0 : field.points(cell);
-    if (points != 0 && points != block.point_count()) throw_other_points(field, cell, mesh, block.point_count());
-    const std::size_t first = values.size();
-    for (int point = 0; point < block.point_count(); ++point)
-      for (const int column : columns)
-        values.push_back(points == 0 || column < 0 ? absent : field.at(cell, point, column));
-    const std::span own(values.begin() + static_cast<std::ptrdiff_t>(first), values.end());
-    const auto is_absent = [](double value) { return std::isnan(value); };
-    if (!std::ranges::all_of(own, is_absent)) std::ranges::replace_if(own, is_absent, 0.0);
-  }
-  return values;
-}
 
 /// Initial stresses agree with those of the displacements up to this share: both have been through fields and files.
 constexpr double initial_stress_tolerance = 1e-6;
@@ -236,71 +111,6 @@ Eigen::VectorXd rounded(const std::vector<long double>& sums) {
 }
 
 }  // namespace
-
-void throw_no_energies(std::string_view elements, const std::string& cell) {
-  throw Error(
-      "unsupported", fmt::format("comma does not compute energies of {}, such as {}", elements, cell),
-      "take ENEL_ELGA of CALC_CHAMP, which other cells have, and integrate it over those (POST_ELEM, INTEGRALE)");
-}
-
-void throw_unsupported_element(const Model& model, int cell) {
-  throw Error("unsupported", fmt::format("there is no element of the formulation asked for on cell {} ({})",
-                                         model.mesh->cell_name(cell), name_of(model.mesh->cell_types[cell])));
-}
-
-CellMaterial elastic_material(const BlockInput& input, int cell) {
-  const CellMaterial result = cell_material(input.model, input.materials, input.properties, cell);
-  if (!is_constant(*result.elasticity)) return result;
-  if (const auto* isotropic = std::get_if<IsotropicElasticity>(result.elasticity))
-    moduli(*isotropic, MaterialPoint());
-  else
-    solid_stiffness(result, MaterialPoint());
-  return result;
-}
-
-const IsotropicElasticity& isotropic_material(const BlockInput& input, int cell) {
-  const auto* isotropic =
-      std::get_if<IsotropicElasticity>(cell_material(input.model, input.materials, input.properties, cell).elasticity);
-  if (isotropic == nullptr) {
-    const bool is_continuum = continuum_dimension(input.model.formulations[static_cast<std::size_t>(cell)]) > 0;
-    throw Error("unsupported",
-                fmt::format("the {} on cell {} has an anisotropic material, but needs an isotropic one",
-                            is_continuum ? "element" : "bar, beam or plate", input.model.mesh->cell_name(cell)),
-                is_continuum ? "in continua without pressure as an unknown anisotropic elasticity goes with "
-                               "DEFORMATION='PETIT', and with 'GREEN_LAGRANGE' but for plane stress"
-                             : "");
-  }
-  if (isotropic->young.is_constant() && isotropic->poisson.is_constant()) moduli(*isotropic, MaterialPoint());
-  return *isotropic;
-}
-
-std::vector<int> gather_nodes(const Mesh& mesh, std::span<const int> cells) {
-  std::vector<int> nodes;
-  nodes.reserve(cells.size() * mesh.cell(cells.front()).size());
-  for (const int cell : cells) {
-    const auto of_cell = mesh.cell(cell);
-    nodes.insert(nodes.end(), of_cell.begin(), of_cell.end());
-  }
-  return nodes;
-}
-
-void ElementBlock::add_initial_stress_forces(std::span<const double> stresses, ForceSum) const {
-  if (std::ranges::all_of(stresses, [](double each) { return std::isnan(each) || each == 0.0; })) return;
-  throw Error("unsupported", "initial stresses as a load (PRE_SIGM) are known of solids, plane bodies and bars alone",
-              "make a field of these cells alone (CREA_CHAMP, GROUP_MA)");
-}
-
-void ElementBlock::add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const {
-  if (has_memory()) return;
-  std::vector<long double> held(forces.size(), 0.0L);
-  add_internal_forces(Eigen::VectorXd::Zero(u.size()), state, held);
-  for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= held[i];
-}
-
-void ElementBlock::add_geometric_stiffness(std::span<const double>, const VariableState&, std::span<const int>,
-                                           double*) const {
-  throw Error("unsupported", "the stiffness that stresses add is not known of this kind of element");
-}
 
 struct Assembler::Blocks {
   using StiffnessTerm = void (ElementBlock::*)(const Eigen::VectorXd&, const VariableState&, std::span<const int>,
