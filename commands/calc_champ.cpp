@@ -117,6 +117,31 @@ void warn_of_empty_field(const std::string& name, const Call& call, Context& con
       "bars and beams have SIEF_ELGA, EFGE_ELNO, SIPO_ELNO and SIPM_ELNO, discrete elements SIEF_ELGA and EFGE_ELNO");
 }
 
+// Strains follow from displacements, which say nothing of that across a plane body without stress there.
+void warn_of_elastic_thickness(const Call& call, const solver::StaticProblem& problem, Context& context) {
+  if (!problem.behaviours) return;
+  const auto& behaviours = *problem.behaviours;
+  for (std::size_t cell = 0; cell < behaviours.size(); ++cell) {
+    if (!solver::is_plane_stress(problem.model->formulations[cell]) ||
+        behaviours[cell].relation == solver::Relation::elastic)
+      continue;
+    context.diagnostics.alarm(
+        "elastic-thickness",
+        fmt::format("CALC_CHAMP: EPZZ of cell {} and its like (C_PLAN) follows from linear elasticity, which their "
+                    "law is not",
+                    problem.model->mesh->cell_name(static_cast<int>(cell))),
+        call.span, "where bodies flow it is the elastic strain of the stresses and EPZZ of EPSP_ELGA together");
+    return;
+  }
+}
+
+bool has_total_strains(const std::vector<std::string>& names) {
+  return std::ranges::any_of(names, [](const std::string& name) {
+    return name.starts_with("EPSI_") || name.starts_with("EPME_") || name.starts_with("EPEQ_") ||
+           name.starts_with("EPMQ_");
+  });
+}
+
 void add_fields(const Call& call, Context& context, ResultConcept& data) {
   warn_of_missing_instants("CALC_CHAMP", call, context.diagnostics);
   FieldsOfSteps computation(call, data);
@@ -138,6 +163,7 @@ void add_fields(const Call& call, Context& context, ResultConcept& data) {
   for (const std::string& name : empty)
     if (!filled.contains(name)) warn_of_empty_field(name, call, context);
   if (!cells) computation.warn_of_limited_sources(context.diagnostics);
+  if (has_total_strains(wanted_fields(call))) warn_of_elastic_thickness(call, computation.problem(), context);
 }
 
 }  // namespace
