@@ -267,6 +267,7 @@ NodalField on_nodes(const NodalField& field, std::span<const int> nodes) {
 }
 
 ElementField side_by_side(const ElementField& first, const ElementField& second) {
+  if (first.values.empty()) return second;
   ElementField both{first.quantity, first.support, first.components, {0}, {}};
   for (const std::string& name : second.components)
     if (both.component(name) < 0) both.components.push_back(name);

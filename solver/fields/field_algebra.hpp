@@ -66,7 +66,8 @@ void drop_empty_cells(ElementField& field);
 ElementField on_cells(const ElementField& field, std::span<const int> cells);
 NodalField on_nodes(const NodalField& field, std::span<const int> nodes);
 
-/// Two fields that lie on different cells, as one: with the components of both, absent where the other lies.
+/// Two fields that lie on different cells, as one: with the components of both, absent where the other lies; the second
+/// alone where the first has no values.
 ElementField side_by_side(const ElementField& first, const ElementField& second);
 
 /// The components at these indices, in this order.

@@ -10,11 +10,9 @@
 #include "solver/error.hpp"
 #include "solver/fields/beam_forces.hpp"
 #include "solver/fields/beam_stresses.hpp"
-#include "solver/fields/energies.hpp"
 #include "solver/fields/equivalent.hpp"
 #include "solver/fields/extrapolation.hpp"
 #include "solver/fields/field_algebra.hpp"
-#include "solver/fields/loading_indicators.hpp"
 #include "solver/fields/nodal_forces.hpp"
 #include "solver/fields/plate_forces.hpp"
 #include "solver/fields/plate_stresses.hpp"
@@ -76,11 +74,6 @@ std::vector<int> plate_cells(const Model& model) {
   for (int cell = 0; cell < model.mesh->cell_count(); ++cell)
     if (is_plate(model.formulations[cell]) && !model.is_skin(cell)) cells.push_back(cell);
   return cells;
-}
-
-/// Both, of which each may be empty.
-ElementField beside(const ElementField& of_continua, const ElementField& of_plates) {
-  return of_continua.values.empty() ? of_plates : side_by_side(of_continua, of_plates);
 }
 
 bool ends(std::string_view name, std::string_view place) { return name.ends_with(place); }
@@ -265,8 +258,8 @@ Field FieldComputation::internal_variables(std::size_t step) {
 
 Field FieldComputation::stress_field_at_points(std::size_t step) {
   if (!has_plates()) return continuum_stresses(element_field("SIEF_ELGA", step));
-  return beside(continuum_stresses(stresses_beside_plates(step)),
-                plate_stresses(*problem_.model, *problem_.properties, plate_forces(step)));
+  return side_by_side(continuum_stresses(stresses_beside_plates(step)),
+                      plate_stresses(*problem_.model, *problem_.properties, plate_forces(step)));
 }
 
 // Stresses of plates and forces of other elements have little in common.
@@ -287,14 +280,14 @@ ElementField FieldComputation::forces_at_nodes(std::size_t step) {
   ElementField of_plates = assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::corners,
                                                    problem_.loads, result_.steps[step].instant);
   of_plates.support = Support::element_node;
-  return beside(others, of_plates);
+  return side_by_side(others, of_plates);
 }
 
 Field FieldComputation::stress_field_at_nodes(std::size_t step) {
   if (!has_plates()) return to_element_nodes(*problem_.model, element_field("SIGM_ELGA", step));
   const ElementField of_continua = to_element_nodes(*problem_.model, continuum_stresses(stresses_beside_plates(step)));
-  return beside(of_continua, plate_stresses(*problem_.model, *problem_.properties,
-                                            to_element_nodes(*problem_.model, plate_forces(step))));
+  return side_by_side(of_continua, plate_stresses(*problem_.model, *problem_.properties,
+                                                  to_element_nodes(*problem_.model, plate_forces(step))));
 }
 
 bool FieldComputation::strains_act_on(std::size_t step, std::span<const int> cells) const {
@@ -403,195 +396,6 @@ Field FieldComputation::stress_criteria_at_points(std::size_t step) {
 
 Field FieldComputation::stress_criteria_at_nodes(std::size_t step) {
   return equivalent_stresses(element_field("SIGM_ELNO", step));
-}
-
-void FieldComputation::require_small_strains(std::string_view name) const {
-  if (problem_.behaviours && std::ranges::any_of(*problem_.behaviours, [](const CellBehaviour& each) {
-        return each.kinematics != Kinematics::small;
-      }))
-    throw Error("unsupported", fmt::format("the field {} is known for small strains only", name));
-}
-
-Field FieldComputation::elastic_energy(std::size_t step) {
-  const ElementField& stresses = stresses_beside_plates(step);
-  Field energies = elastic_energy_density(input(), stresses);
-  if (const std::vector<int> cells = cells_in_green_strains(); !cells.empty()) {
-    const Field of_strains = strain_energy_density(input(), element_field("EPMG_ELGA", step));
-    put_piece(energies, {&of_strains, {}, {}, 1.0, false}, &cells);
-  }
-  if (assembler_.has_memory()) {
-    const Field of_memory = assembler_.energy_densities(to_dofs(displacement(step), dofs_), stresses,
-                                                        std::get<ElementField>(remembered("VARI_ELGA", step)));
-    put_piece(energies, {&of_memory, {}, {}, 1.0, false});
-  }
-  require_elastic_patterns(stresses);
-  add_stabilisation_energy(input(), stresses, std::get<ElementField>(energies));
-  return energies;
-}
-
-// What patterns give back once the point has flowed is not known: they change by its tangent, which is not elastic.
-void FieldComputation::require_elastic_patterns(const ElementField& stresses) const {
-  if (!problem_.behaviours) return;
-  for (int cell = 0; cell < problem_.model->mesh->cell_count(); ++cell) {
-    if ((*problem_.behaviours)[static_cast<std::size_t>(cell)].relation == Relation::elastic ||
-        !is_stabilised(stresses, cell))
-      continue;
-    throw Error("unsupported",
-                fmt::format("cell {}: the elastic energy of the stabilisation of hexahedra with one point (3D_SI) is "
-                            "not known for laws that flow",
-                            problem_.model->mesh->cell_name(cell)),
-                "take the total energy (ETOT_ELEM, ENER_TOTALE), or MODELISATION='3D'");
-  }
-}
-
-std::vector<int> FieldComputation::cells_in_green_strains() const {
-  std::vector<int> cells;
-  if (!problem_.behaviours) return cells;
-  const ContinuumPoints continuum(*problem_.model);
-  for (int cell = 0; cell < problem_.model->mesh->cell_count(); ++cell)
-    if (continuum.covers(cell) &&
-        (*problem_.behaviours)[static_cast<std::size_t>(cell)].kinematics == Kinematics::green_lagrange)
-      cells.push_back(cell);
-  return cells;
-}
-
-bool FieldComputation::has_bars_with_memory() const {
-  if (!problem_.behaviours) return false;
-  for (std::size_t cell = 0; cell < problem_.behaviours->size(); ++cell)
-    if (is_bar(problem_.model->formulations[cell]) && has_memory((*problem_.behaviours)[cell])) return true;
-  return false;
-}
-
-// Of continua from their stresses; of springs, bars and beams from their displacements, and of bars with a memory from
-// what they remember.
-Field FieldComputation::elastic_energy_of_cells(std::size_t step) {
-  const Eigen::VectorXd u = to_dofs(displacement(step), dofs_);
-  if (has_bars_with_memory())
-    assembler_.resume(u, &element_field("SIEF_ELGA", step), &element_field("VARI_ELGA", step));
-  require_no_initial_stresses("the elastic energy", step);
-  Field energies = assembler_.elastic_energies(u);
-  const Field continua = integrate_cells(*problem_.model, element_field("ENEL_ELGA", step));
-  put_piece(energies, {&continua, {}, {}, 1.0, false});
-  return energies;
-}
-
-Field FieldComputation::potential_energy_of_cells(std::size_t step) {
-  if (assembler_.has_memory())
-    throw Error("unsupported",
-                "the potential energy of a material with a memory does not follow from its displacements",
-                "take the elastic energy (ENEL_ELEM, ENER_ELAS), from the stresses");
-  require_no_initial_stresses("the potential energy", step);
-  return assembler_.elastic_energies(to_dofs(displacement(step), dofs_));
-}
-
-// What adds up from step to step is computed from the first one on: step by step backwards the calls would nest as deep
-// as there are steps.
-void FieldComputation::know_earlier(const std::string& name, std::size_t step) {
-  const auto is_known = [&](std::size_t earlier) {
-    return result_.steps[earlier].fields.contains(name) || known_.contains(Key(earlier, name));
-  };
-  std::size_t next = step;
-  while (next > 0 && !is_known(next - 1)) --next;
-  for (; next < step; ++next) needed(name, next);
-  move_to(step);
-}
-
-// The work of stresses adds up from step to step.
-Field FieldComputation::total_energy(std::size_t step) {
-  require_small_strains("ETOT_ELGA");
-  know_earlier("ETOT_ELGA", step);
-  const ElementField *stress_before = nullptr, *strain_before = nullptr, *before = nullptr;
-  const NodalField* displacement_before = nullptr;
-  if (step > 0) {
-    stress_before = &stresses_beside_plates(step - 1);
-    strain_before = &element_field("EPSI_ELGA", step - 1);
-    before = &element_field("ETOT_ELGA", step - 1);
-    displacement_before = &displacement(step - 1);
-    move_to(step);
-  }
-  const ElementField& stress = stresses_beside_plates(step);
-  ElementField energies =
-      total_energy_density(stress, element_field("EPSI_ELGA", step), stress_before, strain_before, before);
-  add_stabilisation_work(*problem_.model, stress, displacement(step), stress_before, displacement_before, energies);
-  return energies;
-}
-
-// The work of the normal force of bars adds up like that of stresses; that of the forces of beams, plates and discrete
-// elements is their elastic energy, as long as they are elastic and nothing else strains them.
-Field FieldComputation::total_energy_of_cells(std::size_t step) {
-  ElementField energies = integrate_cells(*problem_.model, element_field("ETOT_ELGA", step));
-  const Model& model = *problem_.model;
-  std::vector<int> bars, others;
-  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
-    if (model.components_of(cell) == 0 || model.is_skin(cell) || continuum_dimension(model.formulations[cell]) > 0)
-      continue;
-    (is_bar(model.formulations[cell]) ? bars : others).push_back(cell);
-  }
-  if (!others.empty()) {
-    require_no_initial_stresses("the total energy", step);
-    if (others_.stiffness_changes && others_.begin > 0)
-      throw Error(
-          "unsupported",
-          fmt::format("the total energy of beams, plates and discrete elements, such as that on {}, is not known "
-                      "where materials or sections are not the same in all steps of a result",
-                      model.mesh->cell_name(others.front())),
-          "take the elastic energy (ENEL_ELEM, ENER_ELAS), or name the other cells by GROUP_MA");
-    if (!assembler_.state().empty() || strains_act_on(step, others))
-      throw Error("unsupported",
-                  "the total energy of beams, plates and discrete elements is not known beside strains of command "
-                  "variables or of loads",
-                  "take the elastic energy (ENEL_ELEM, ENER_ELAS)");
-    const auto flows = [&](int cell) {
-      return problem_.behaviours &&
-             (*problem_.behaviours)[static_cast<std::size_t>(cell)].relation != Relation::elastic;
-    };
-    if (const auto found = std::ranges::find_if(others, flows); found != others.end())
-      throw Error(
-          "unsupported",
-          fmt::format("the total energy of discrete elements with a law of their own, such as that on {}, is not known",
-                      model.mesh->cell_name(*found)));
-    energies = beside(energies, on_cells(assembler_.elastic_energies(to_dofs(displacement(step), dofs_)), others));
-  }
-  if (bars.empty()) return energies;
-  know_earlier("ETOT_ELEM", step);
-  const auto lacks = [&](const ElementField& before) {
-    return std::ranges::any_of(bars, [&](int cell) { return before.points(cell) == 0; });
-  };
-  if (step > 0 && (lacks(element_field("SIEF_ELGA", step - 1)) || lacks(element_field("ETOT_ELEM", step - 1))))
-    throw Error(
-        "incompatible-field",
-        fmt::format("the total energy adds up from step to step, and step INST={} of the result lacks forces or "
-                    "energies of bars",
-                    result_.steps[step - 1].instant),
-        "compute ETOT_ELEM of all steps on the whole model, and with one model");
-  ElementField of_bars = bar_work(model, bars, element_field("SIEF_ELGA", step), displacement(step),
-                                  step > 0 ? &element_field("SIEF_ELGA", step - 1) : nullptr,
-                                  step > 0 ? &displacement(step - 1) : nullptr);
-  if (step > 0) {
-    const ElementField& before = element_field("ETOT_ELEM", step - 1);
-    for (const int cell : bars) of_bars.values[static_cast<std::size_t>(of_bars.starts[cell])] += before.at(cell, 0, 0);
-    move_to(step);
-  }
-  return beside(energies, of_bars);
-}
-
-Field FieldComputation::unloading(std::size_t step) {
-  const ElementField now = continuum_stresses(stresses_beside_plates(step));
-  const bool is_last = step + 1 == result_.steps.size();
-  ElementField indicators = local_indicators(now, is_last ? now : continuum_stresses(stresses_beside_plates(step + 1)));
-  move_to(step);
-  if (is_last) std::ranges::fill(indicators.values, absent);
-  return indicators;
-}
-
-Field FieldComputation::yield_of_loading(std::size_t step) {
-  return yield_indicator(input(), {element_field("EPSP_ELGA", step), stresses_beside_plates(step),
-                                   element_field("VARI_ELGA", step), problem_.behaviours.get()});
-}
-
-Field FieldComputation::energy_of_loading(std::size_t step) {
-  return energy_indicator(input(), {element_field("EPSP_ELGA", step), stresses_beside_plates(step),
-                                    element_field("VARI_ELGA", step), problem_.behaviours.get()});
 }
 
 bool FieldComputation::has_beams_that_turn() const {

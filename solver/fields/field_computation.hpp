@@ -107,6 +107,8 @@ class FieldComputation {
   void know_earlier(const std::string& name, std::size_t step);
   Field total_energy(std::size_t step);
   Field total_energy_of_cells(std::size_t step);
+  void require_elastic_work(const std::vector<int>& others, std::size_t step);
+  ElementField work_of_bars(const std::vector<int>& bars, std::size_t step);
   Field internal_variables(std::size_t step);
   Field unloading(std::size_t step);
   Field yield_of_loading(std::size_t step);
