@@ -24,7 +24,9 @@ std::vector<fs::path> files_with(const fs::path& folder, const std::vector<std::
   std::vector<fs::path> found;
   for (const auto& entry : fs::directory_iterator(folder.empty() ? fs::path(".") : folder)) {
     for (const std::string& extension : extensions) {
-      if (entry.is_regular_file() && entry.path().extension() == "." + extension) found.push_back(entry.path());
+      std::error_code unreadable;  // a link that leads nowhere
+      if (entry.is_regular_file(unreadable) && entry.path().extension() == "." + extension)
+        found.push_back(entry.path());
     }
   }
   return found;

@@ -250,6 +250,7 @@ Scene scene_of(const Call& call) {
   product->problem = problem_of(call, initial);
   product->result.model = product->problem.model;
   check_driven(call, product->problem);
+  complete_variables(product->problem, initial.behaviours.get());
   check_initial_stresses(call, product->problem);
   check_turned_beams(call, product->problem, initial.behaviours.get());
   solver::NewtonOptions options = newton_options(call, product->result.mesh());

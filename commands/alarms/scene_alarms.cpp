@@ -282,13 +282,17 @@ bool warn_of_other_laws(const interpreter::Call& call, const solver::BehaviourOf
   for (std::size_t cell = 0; cell < std::min(before->size(), now.size()); ++cell) {
     if ((*before)[cell] == now[cell]) continue;
     const auto had = solver::variable_names((*before)[cell]), has = solver::variable_names(now[cell]);
-    if (had == has || had == none || has == none || had.empty() || has.empty()) continue;
+    // Some laws have variables without names.
+    const bool are_unknown = (had.empty() || has.empty()) && (*before)[cell].relation != now[cell].relation;
+    if ((had == has && !are_unknown) || had == none || has == none) continue;
+    if ((had.empty() || has.empty()) && !are_unknown) continue;
     context.diagnostics.alarm(
         "other-variables",
         fmt::format(
             "{}: the law of cell {} had the internal variables {} and now has {}: they are taken by their numbers",
-            call.command, problem.model->mesh->cell_name(static_cast<int>(cell)), fmt::join(had, ", "),
-            fmt::join(has, ", ")),
+            call.command, problem.model->mesh->cell_name(static_cast<int>(cell)),
+            had.empty() ? "of its own" : fmt::format("{}", fmt::join(had, ", ")),
+            has.empty() ? "others" : fmt::format("{}", fmt::join(has, ", "))),
         call.factor("ETAT_INIT").span, "go on with the same law, or give VARI that belong to the new one");
     return true;
   }

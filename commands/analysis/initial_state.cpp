@@ -132,15 +132,15 @@ InitialStateChoice initial_state(const interpreter::Call& call) {
 }
 
 void check_initial_stresses(const interpreter::Call& call, const solver::StaticProblem& problem) {
-  if (!call.has("ETAT_INIT") || !call.factor("ETAT_INIT").has("SIGM") || !problem.behaviours || !problem.initial ||
-      !problem.initial->stresses || problem.initial->displacement)
-    return;
+  if (!call.has("ETAT_INIT") || !problem.behaviours || !problem.initial || !problem.initial->stresses) return;
   const Keywords& keywords = call.factor("ETAT_INIT");
   const solver::ElementField& stresses = *problem.initial->stresses;
+  // Elasticity leaves one that is empty behind (VIDE).
+  const bool has_variables = problem.initial->variables && problem.initial->variables->components.size() > 1;
   for (int cell = 0; cell < problem.model->mesh->cell_count(); ++cell) {
     const solver::CellBehaviour& law = (*problem.behaviours)[static_cast<std::size_t>(cell)];
-    const bool by_displacement = law.relation == solver::Relation::hyperelastic;
-    const bool by_variables = law.kinematics == solver::Kinematics::multiplicative && !problem.initial->variables;
+    const bool by_displacement = law.relation == solver::Relation::hyperelastic && !problem.initial->displacement;
+    const bool by_variables = law.kinematics == solver::Kinematics::multiplicative && !has_variables;
     if (!by_displacement && !by_variables) continue;
     const auto width = static_cast<std::size_t>(stresses.components.size());
     const auto first = static_cast<std::size_t>(stresses.starts[static_cast<std::size_t>(cell)]) * width,
@@ -152,9 +152,30 @@ void check_initial_stresses(const interpreter::Call& call, const solver::StaticP
         fmt::format("ETAT_INIT: cell {} does not start from stresses: those of {} follow from the {}",
                     problem.model->mesh->cell_name(cell), by_displacement ? "ELAS_HYPER" : "SIMO_MIEHE",
                     by_displacement ? "displacement" : "internal variables"),
-        keywords.span_of("SIGM"),
-        by_displacement ? "give DEPL, or another RELATION" : "give VARI too, or take DEFORMATION='GDEF_LOG'");
+        keywords.has("SIGM") ? keywords.span_of("SIGM") : keywords.span,
+        by_displacement ? "give DEPL, or another RELATION"
+                        : "give VARI too (a result that has VARI_ELGA of that law), or take DEFORMATION='GDEF_LOG'");
   }
+}
+
+void complete_variables(solver::StaticProblem& problem, const solver::BehaviourOfCells* before) {
+  if (before == nullptr || !problem.behaviours || !problem.initial || !problem.initial->variables) return;
+  const auto is_small = [](const solver::CellBehaviour& law) {
+    return law.kinematics == solver::Kinematics::small || law.kinematics == solver::Kinematics::green_lagrange;
+  };
+  auto state = std::make_shared<solver::InitialState>(*problem.initial);
+  solver::ElementField& variables = *state->variables;
+  const std::size_t width = variables.components.size();
+  for (std::size_t cell = 0; cell < std::min(before->size(), problem.behaviours->size()); ++cell) {
+    if ((*before)[cell].relation != solver::Relation::elastic || !is_small((*before)[cell]) ||
+        !is_small((*problem.behaviours)[cell]))
+      continue;
+    const auto first = variables.values.begin() + static_cast<std::ptrdiff_t>(variables.starts[cell] * width),
+               end = variables.values.begin() + static_cast<std::ptrdiff_t>(variables.starts[cell + 1] * width);
+    std::replace_if(
+        first, end, [](double value) { return std::isnan(value); }, 0.0);
+  }
+  problem.initial = std::move(state);
 }
 
 void check_turned_beams(const interpreter::Call& call, const solver::StaticProblem& problem,

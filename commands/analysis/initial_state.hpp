@@ -21,10 +21,14 @@ struct InitialStateChoice {
 /// fields. Throws DiagnosticError `unknown-step`, `wrong-type` for a field of another kind.
 InitialStateChoice initial_state(const interpreter::Call& call);
 
-/// Throws DiagnosticError `unsupported` where SIGM stands for a law that does not start from stresses: those of
+/// Throws DiagnosticError `unsupported` where a law does not start from the stresses that are given: those of
 /// hyperelasticity follow from the displacement, those of SIMO_MIEHE from the internal variables (R5.03.21). Where
-/// displacements are given too they are taken for a state of the law.
+/// these are given too they are taken for a state of the law.
 void check_initial_stresses(const interpreter::Call& call, const solver::StaticProblem& problem);
+
+/// Cells that were elastic had nothing to remember: in another law of small displacements their variables begin at
+/// zero, whatever those of other cells are. `before`: what the state was computed with; may be null.
+void complete_variables(solver::StaticProblem& problem, const solver::BehaviourOfCells* before);
 
 /// Throws DiagnosticError `unsupported` where a beam that GROT_GDEP has turned goes on in small displacements: its
 /// forces are along axes that it has no longer.

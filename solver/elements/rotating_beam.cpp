@@ -199,14 +199,13 @@ class RotatingBeam final : public ElementBlock {
     }
   }
 
-  /// Without variables the axes are those of the first geometry.
+  /// Without variables the axes are those of the first geometry, carried along as if by one step.
   void resume(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported,
               std::span<const double> variables) override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const double* own =
           variables.empty() ? nullptr : variables.data() + point_count() * rotating_beam_variables * element;
-      const double roll =
-          own == nullptr ? members_[static_cast<std::size_t>(element)].section->roll : own[roll_variable];
+      const double roll = own == nullptr ? carried_roll(element, u) : own[roll_variable];
       begin(element, u, roll, reported.empty() ? Vector12d::Zero().eval() : end_forces(reported.data() + 12 * element));
       past_[static_cast<std::size_t>(element)].elongation = own == nullptr ? 0.0 : own[2];
     }
@@ -254,6 +253,16 @@ class RotatingBeam final : public ElementBlock {
     const auto nodes = mesh_.cell(cell);
     return Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[static_cast<std::size_t>(nodes[1])].data()) -
            Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[static_cast<std::size_t>(nodes[0])].data());
+  }
+
+  /// The direction from which rolls count changes its place at the vertical: a beam near it keeps none by its number.
+  double carried_roll(int element, const Eigen::VectorXd& u) const {
+    BeamPast first;
+    first.along = initial_chord(cells_[static_cast<std::size_t>(element)]);
+    first.roll = members_[static_cast<std::size_t>(element)].section->roll;
+    Vector12d step = unknowns(element, u);
+    step.segment<3>(6) -= step.head<3>();
+    return roll_of(geometry<double>(first, motion_of(step)).axes);
   }
 
   void begin(int element, const Eigen::VectorXd& u, double roll, const Vector12d& force) {
