@@ -198,6 +198,9 @@ solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& m
   if (keywords.text("TYPE_APPA") == "FIXE") {
     check_direction_of_search(keywords);
     zone.pairing_direction = direction_of(keywords, "DIRE_APPA");
+    if (mesh.dimension == 2 && (*zone.pairing_direction)[2] != 0.0)
+      throw DiagnosticError("out-of-plane", "DEFI_CONTACT: DIRE_APPA points out of the plane of the model",
+                            keywords.span_of("DIRE_APPA"), "give a direction whose third component is 0");
   }
   zone.excluded_slave_nodes =
       selected_nodes(keywords, mesh, {"", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"});

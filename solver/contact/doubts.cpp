@@ -19,6 +19,9 @@ namespace {
 /// How far outside a slave face, in its reference coordinates, a master node still faces it.
 constexpr double border = 1e-6;
 
+/// Of the motion of a node.
+constexpr double negligible_passage = 1e-6;
+
 /// The same surfaces the other way round, master nodes facing slave faces: watched, so that the middle nodes of
 /// quadratic faces count too.
 ContactDefinition turned(const ContactDefinition& definition, const ContactZone& zone) {
@@ -126,7 +129,7 @@ void PassedMaster::look_at(int index, Positions positions, double pushed, double
   const Depths& before = initial_.at(index);
   const Depths now = depths(zone, positions, time);
   const std::unordered_map<int, double>& share = shares(index);
-  double sum = 0.0, touching = 0.0;
+  double sum = 0.0, touching = 0.0, moved = 0.0;
   for (const auto& [node, depth] : now.depth) {
     if (depth < -doubtful_share * pushed) continue;
     const auto known = before.depth.find(node);
@@ -136,9 +139,12 @@ void PassedMaster::look_at(int index, Positions positions, double pushed, double
     const double passed = std::max(0.0, depth - (known == before.depth.end() ? 0.0 : std::max(0.0, known->second)));
     sum += share.at(node) * passed;
     touching += share.at(node);
+    moved = std::max(moved, (positions[node] - place(mesh_, node)).norm());
   }
   const double mean = touching > 0.0 ? sum / touching : 0.0;
-  if (mean > rounding_of_place * now.size) deepest_[index] = std::max(deepest_[index], mean);
+  // Without a push to compare with, what is nothing beside the motion is rounding.
+  const double rounding = std::max(rounding_of_place * now.size, pushed > 0.0 ? 0.0 : negligible_passage * moved);
+  if (mean > rounding) deepest_[index] = std::max(deepest_[index], mean);
 }
 
 void PassedMaster::conclude(ContactDoubts& doubts) const {

@@ -118,8 +118,10 @@ void note_depth(const SolvedContact& contact, const ContactResponse& response, i
                      .zone = zone,
                      .length = depth,
                      .penalty = response.penalties.contact_penalty(definition.mixed, zone)};
-  // What nothing but contact holds has no depth to compare with, and its forces do not depend on the penalty.
-  if (contact.problem.springs.empty()) note_soft_penalty(doubt, reach, extent(contact.mesh), doubts);
+  // What nothing but contact holds has no depth to compare with, and its forces do not depend on the penalty; nor has
+  // it where the stresses of large displacements make its stiffness indefinite.
+  if (contact.problem.springs.empty() && !contact.problem.indefinite)
+    note_soft_penalty(doubt, reach, extent(contact.mesh), doubts);
   const double size = extent(contact.mesh, definition.slave_cells);
   if (depth <= doubtful_depth * size) return;
   doubt.kind = DoubtKind::deep_penalty;

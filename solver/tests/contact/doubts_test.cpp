@@ -159,6 +159,9 @@ TEST_CASE("Master nodes that have gone through the slave side are told of by the
   REQUIRE(told(0.2, 0.0).size() == 1);
   CHECK(std::isinf(told(0.2, 0.0).front().share));
   CHECK(told(-0.2, 0.0).empty());
+  // Both sides go far together, and rounding is left of what lies between them.
+  CHECK(told(1e-8, 0.0).empty());
+  CHECK(told(1e-3, 0.0).size() == 1);
   // What another zone pushes back is no measure of this one.
   sides.definition.zones.push_back(sides.definition.zones.front());
   sides.definition.zones.back().resolved = false;
