@@ -9,9 +9,13 @@
 #include <fmt/format.h>
 
 #include "commands/selection.hpp"
+#include "solver/contact/extent.hpp"
 #include "solver/contact/face_rule.hpp"
 #include "solver/contact/normals.hpp"
+#include "solver/contact/pairing.hpp"
+#include "solver/error.hpp"
 #include "solver/mesh/orientation.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::commands {
 
@@ -101,8 +105,17 @@ bool lies_in_plane(const solver::Mesh& mesh) {
   return std::ranges::all_of(mesh.nodes, [](const auto& place) { return place[2] == 0.0; });
 }
 
+/// Whether all these cells bound bodies, so that what lies behind them is inside. Plates, beams and
+/// rigid faces have no inside.
+bool bound_bodies(const solver::Mesh& mesh, const std::vector<int>& cells) {
+  const int with_normals = lies_in_plane(mesh) ? 1 : 2;
+  return solver::loose_skin(mesh, cells).empty() && std::ranges::all_of(cells, [&](int cell) {
+           return solver::dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) == with_normals;
+         });
+}
+
 /// Whether a direction that stands for the outward normal of all these cells points into the bodies behind them
-/// everywhere. Plates, beams and rigid faces have no inside.
+/// everywhere.
 bool points_inward(const std::array<double, 3>& direction, std::span<const int> cells, const solver::Mesh& mesh) {
   std::vector<Eigen::Vector3d> places;
   for (const auto& place : mesh.nodes) places.emplace_back(place[0], place[1], place[2]);
@@ -110,7 +123,7 @@ bool points_inward(const std::array<double, 3>& direction, std::span<const int> 
   const auto is_against = [&](int cell) {
     return solver::outward_normal(mesh, cell, inside, places).dot(Eigen::Vector3d(direction.data())) < 0.0;
   };
-  return solver::loose_skin(mesh, cells).empty() && std::ranges::all_of(cells, is_against);
+  return std::ranges::all_of(cells, is_against);
 }
 
 // A fixed direction stands for the outward normal: along one that points into the body bodies go through each other.
@@ -122,11 +135,7 @@ void warn_of_inward_directions(const Call& call, const solver::ContactDefinition
     const auto look = [&](const char* keyword, solver::NormalRule rule, solver::NormalSide other,
                           const std::array<double, 3>& direction, const std::vector<int>& cells) {
       if (rule != solver::NormalRule::fixed || zone.normal_side == other) return;
-      const int with_normals = lies_in_plane(mesh) ? 1 : 2;
-      const bool has_normals = std::ranges::all_of(cells, [&](int cell) {
-        return solver::dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) == with_normals;
-      });
-      if (!has_normals || !points_inward(direction, cells, mesh)) return;
+      if (!bound_bodies(mesh, cells) || !points_inward(direction, cells, mesh)) return;
       diagnostics.alarm("inward-normals",
                         fmt::format("DEFI_CONTACT: {} points into the body, where it stands for the normal that points "
                                     "out of it: the bodies may go through each other",
@@ -154,6 +163,44 @@ void warn_of_inward_normals(const Call& call, const solver::ContactDefinition& d
                                     inward, cells->size()),
                         zones[k].span_of(keyword),
                         "turn them by MODI_MAILLAGE(ORIE_PEAU=_F(GROUP_MA_PEAU=...)) before the model is made");
+    }
+  }
+}
+
+/// How many slave nodes of a zone face the master, and how many of these from behind: looking the same way as it does.
+std::pair<int, int> facing_nodes(const solver::ContactZone& zone, const solver::Mesh& mesh) {
+  solver::ContactDefinition alone;
+  alone.zones.push_back(zone);
+  const std::vector<Eigen::Vector3d> places = solver::places(mesh);
+  const auto normals = solver::nodal_normals(mesh, zone.slave_cells, places);
+  constexpr double same_way = 0.5, rounding = 1e-6;
+  std::pair<int, int> count{0, 0};
+  for (const solver::ContactPair& pair : solver::pair_surfaces(alone, mesh, places, 0.0)) {
+    if (pair.status != solver::PairingStatus::paired) continue;
+    ++count.first;
+    const Eigen::Vector3d out = solver::outward_normal(mesh, pair.facet, Eigen::Vector2d(0.25, 0.25), places);
+    const double height = out.dot(places[static_cast<std::size_t>(pair.slave)] - pair.foot);
+    count.second += normals.at(pair.slave).dot(out) > same_way && height < -rounding * solver::extent(mesh, pair.facet);
+  }
+  return count;
+}
+
+void warn_of_surfaces_turned_away(const Call& call, const solver::ContactDefinition& definition,
+                                  const solver::Mesh& mesh, interpreter::Diagnostics& diagnostics) {
+  const std::vector<Keywords> zones = call.factors("ZONE");
+  for (std::size_t k = 0; k < zones.size(); ++k) {
+    const solver::ContactZone& zone = definition.zones[k];
+    if (!zone.resolved || !bound_bodies(mesh, zone.master_cells) || !bound_bodies(mesh, zone.slave_cells)) continue;
+    try {
+      const auto [facing, from_behind] = facing_nodes(zone, mesh);
+      if (2 * from_behind <= facing) continue;
+      diagnostics.alarm("surfaces-turned-away",
+                        fmt::format("DEFI_CONTACT: of zone {} the slave side looks the same way as the master and lies "
+                                    "behind it, which counts as deep in it ({} of {} nodes)",
+                                    k + 1, from_behind, facing),
+                        zones[k].span, "name the sides that look at each other");
+    } catch (const solver::Error&) {
+      // Surfaces that cannot be paired are told of where they must be.
     }
   }
 }
@@ -246,6 +293,7 @@ void warn_of_contact(const Call& call, const solver::ContactDefinition& definiti
   warn_of_idle_options(call, diagnostics);
   warn_of_inward_directions(call, definition, mesh, diagnostics);
   warn_of_inward_normals(call, definition, mesh, diagnostics);
+  warn_of_surfaces_turned_away(call, definition, mesh, diagnostics);
 }
 
 }  // namespace comma::commands
