@@ -117,29 +117,15 @@ void ContactRows::face(Positions positions, double time, double margin) {
   if (zone_directions_.empty()) choose_directions(positions, time);
 }
 
-void ContactRows::add_row(int row, const ContactPoint& point, const Vector3d& direction,
-                          std::vector<Eigen::Triplet<double>>& entries) const {
-  const auto add = [&](int node, const Vector3d& share) {
-    for (int axis = 0; axis < 3; ++axis) {
-      if (share[axis] == 0.0) continue;
-      const int dof = dofs_.dof(node, translation_components[axis]);
-      if (dof < 0)
-        throw Error(
-            "unknown-dof",
-            fmt::format("node {} of a contact surface carries no {}", mesh_.node_name(node),
-                        name_of(translation_components[axis])),
-            "the model gives its cells no element: extend AFFE_MODELE, or take the cells out of the contact zone");
-      entries.emplace_back(row, dof, share[axis]);
-    }
-  };
+void ContactRows::add_row(int row, const ContactPoint& point, const Vector3d& direction, RowEntries& entries) const {
   if (!point.shares.empty()) {
-    for (const GapShare& share : point.shares) add(share.node, share.coefficient);
+    for (const GapShare& share : point.shares) entries.add(row, share.node, share.coefficient);
     return;
   }
   const auto slave = mesh_.cell(point.cell);
-  for (std::size_t i = 0; i < slave.size(); ++i) add(slave[i], point.shape[i] * direction);
+  for (std::size_t i = 0; i < slave.size(); ++i) entries.add(row, slave[i], point.shape[i] * direction);
   const auto master = mesh_.cell(point.facet);
-  for (std::size_t i = 0; i < master.size(); ++i) add(master[i], -point.master_shape[i] * direction);
+  for (std::size_t i = 0; i < master.size(); ++i) entries.add(row, master[i], -point.master_shape[i] * direction);
 }
 
 /// One direction of space for all tangents of a zone, away from its normals where the surfaces lie at first: shears at
@@ -216,7 +202,7 @@ void ContactRows::count_slips(const std::vector<CondensedPoint>& points, const E
 
 std::vector<CondensedPoint> ContactRows::build(const Eigen::VectorXd& reference) {
   std::vector<CondensedPoint> points;
-  std::vector<Eigen::Triplet<double>> entries;
+  RowEntries entries(mesh_, dofs_);
   std::vector<double> base;
   for (const ContactPoint& point : points_) {
     CondensedPoint each = condensed(point);
@@ -231,8 +217,7 @@ std::vector<CondensedPoint> ContactRows::build(const Eigen::VectorXd& reference)
     }
     points.push_back(each);
   }
-  full_.resize(static_cast<Index>(base.size()), dofs_.size());
-  full_.setFromTriplets(entries.begin(), entries.end());
+  full_ = entries.matrix(static_cast<Index>(base.size()));
   base_ = Eigen::Map<const Eigen::VectorXd>(base.data(), static_cast<Index>(base.size()));
   count_slips(points, reference);
   reduced_ = full_ * RowMatrix(elimination_.transformation());

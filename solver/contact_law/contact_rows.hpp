@@ -10,6 +10,7 @@
 
 #include "solver/constraints/elimination.hpp"
 #include "solver/contact/contact_points.hpp"
+#include "solver/contact/row_entries.hpp"
 #include "solver/contact_law/condensed_problem.hpp"
 #include "solver/model/model.hpp"
 
@@ -57,8 +58,7 @@ class ContactRows {
   void choose_directions(Positions positions, double time);
   CondensedPoint condensed(const ContactPoint& point) const;
   double initial_gap(const ContactPoint& point) const;
-  void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction,
-               std::vector<Eigen::Triplet<double>>& entries) const;
+  void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction, RowEntries& entries) const;
   void settle_blocked(std::vector<CondensedPoint>& points);
 
   const ContactDefinition& definition_;
