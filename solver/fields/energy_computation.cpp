@@ -83,13 +83,30 @@ Field FieldComputation::elastic_energy_of_cells(std::size_t step) {
   return energies;
 }
 
+// Elasticity that began with stresses adds them up as laws with a memory do, and has an energy all the same where these
+// are the ones of the displacements that it began with.
 Field FieldComputation::potential_energy_of_cells(std::size_t step) {
-  if (assembler_.has_memory())
+  const Eigen::VectorXd u = to_dofs(displacement(step), dofs_);
+  require_no_initial_stresses("the potential energy", step);
+  if (!assembler_.has_memory()) return assembler_.elastic_energies(u);
+  BehaviourOfCells laws = *problem_.behaviours;
+  for (CellBehaviour& law : laws) law.from_initial_state = false;
+  const bool began_displaced = problem_.initial && problem_.initial->displacement;
+  if (!began_displaced || std::ranges::any_of(laws, [](const CellBehaviour& law) { return has_memory(law); }))
     throw Error("unsupported",
                 "the potential energy of a material with a memory does not follow from its displacements",
                 "take the elastic energy (ENEL_ELEM, ENER_ELAS), from the stresses");
-  require_no_initial_stresses("the potential energy", step);
-  return assembler_.elastic_energies(to_dofs(displacement(step), dofs_));
+  Assembler elastic(*problem_.model, *problem_.materials, *problem_.properties, dofs_, &laws);
+  elastic.set_time(result_.steps[step].instant);
+  elastic.impose_strains(problem_.loads, result_.steps[step].instant);
+  const ElementField of_displacements = elastic.stresses(u, problem_.loads, result_.steps[step].instant);
+  if (const auto cell = cell_of_other_values(of_displacements, element_field("SIEF_ELGA", step)))
+    throw Error("unsupported",
+                fmt::format("the potential energy is not known where a computation began with stresses that are not "
+                            "those of its displacements, as on cell {}",
+                            problem_.model->mesh->cell_name(*cell)),
+                "take the elastic energy (ENEL_ELEM, ENER_ELAS), from the stresses");
+  return elastic.elastic_energies(u);
 }
 
 // What adds up from step to step is computed from the first one on: step by step backwards the calls would nest as deep

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 #include <fmt/format.h>
@@ -264,6 +265,24 @@ NodalField on_nodes(const NodalField& field, std::span<const int> nodes) {
     std::copy_n(field.values.begin() + begin, width, part.values.begin() + begin);
   }
   return part;
+}
+
+std::optional<int> cell_of_other_values(const ElementField& field, const ElementField& given) {
+  // Values as near to each other as this share of the largest are the same.
+  constexpr double same = 1e-6;
+  Field both = field;
+  take_common_values(both, given);
+  const std::vector<double>& values = values_of(both);
+  double largest = 0.0;
+  for (const std::vector<double>* each : {&values, &field.values})
+    for (const double value : *each)
+      if (!std::isnan(value)) largest = std::max(largest, std::abs(value));
+  for (std::size_t cell = 0; cell + 1 < field.starts.size(); ++cell) {
+    const auto width = field.components.size(), end = static_cast<std::size_t>(field.starts[cell + 1]) * width;
+    for (auto k = static_cast<std::size_t>(field.starts[cell]) * width; k < end; ++k)
+      if (std::abs(values[k] - field.values[k]) > same * largest) return static_cast<int>(cell);
+  }
+  return std::nullopt;
 }
 
 ElementField side_by_side(const ElementField& first, const ElementField& second) {

@@ -66,6 +66,10 @@ void drop_empty_cells(ElementField& field);
 ElementField on_cells(const ElementField& field, std::span<const int> cells);
 NodalField on_nodes(const NodalField& field, std::span<const int> nodes);
 
+/// A cell where a given field has other values than a field does, beyond a millionth of the largest of both; empty
+/// where there is none.
+std::optional<int> cell_of_other_values(const ElementField& field, const ElementField& given);
+
 /// Two fields that lie on different cells, as one: with the components of both, absent where the other lies; the second
 /// alone where the first has no values.
 ElementField side_by_side(const ElementField& first, const ElementField& second);

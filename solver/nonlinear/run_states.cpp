@@ -12,31 +12,8 @@
 #include "solver/nonlinear/static_run.hpp"
 
 namespace comma::solver {
-namespace {
 
 using Eigen::Vector3d;
-
-/// Stresses as near to each other as this share of the largest are the same.
-constexpr double same_stress = 1e-6;
-
-/// A cell where a field has stresses of its own.
-std::optional<int> cell_of_other_stresses(const ElementField& stresses, const ElementField& given) {
-  Field both = stresses;
-  take_common_values(both, given);
-  const std::vector<double>& values = values_of(both);
-  double largest = 0.0;
-  for (const std::vector<double>* each : {&values, &stresses.values})
-    for (const double value : *each)
-      if (!std::isnan(value)) largest = std::max(largest, std::abs(value));
-  for (std::size_t cell = 0; cell + 1 < stresses.starts.size(); ++cell) {
-    const auto width = stresses.components.size(), end = static_cast<std::size_t>(stresses.starts[cell + 1]) * width;
-    for (auto k = static_cast<std::size_t>(stresses.starts[cell]) * width; k < end; ++k)
-      if (std::abs(values[k] - stresses.values[k]) > same_stress * largest) return static_cast<int>(cell);
-  }
-  return std::nullopt;
-}
-
-}  // namespace
 
 void StaticRun::start(double instant) {
   last_instant_ = instant;
@@ -53,7 +30,7 @@ void StaticRun::start(double instant) {
   assembler_.impose_strains(loads_so_far(), instant);
   resume();
   if (options_.note_unused_stresses && problem_.initial && problem_.initial->stresses) {
-    if (const auto cell = cell_of_other_stresses(assembler_.stresses(now_.state.u), *problem_.initial->stresses))
+    if (const auto cell = cell_of_other_values(assembler_.stresses(now_.state.u), *problem_.initial->stresses))
       options_.note_unused_stresses(*cell);
   }
   if (problem_.initial || !result_.steps.empty())
