@@ -341,7 +341,7 @@ Product stat_non_line(const Call& call, Context& context) {
   warn_of_unconverged_steps(call, unconverged, context);
   warn_of_indefinite_stiffness(call, before, context);
   warn_of_turns(call, *product, context);
-  warn_of_inverted_cells(call, *product, context);
+  if (!computed.empty()) warn_of_inverted_cells(call, *product, computed.front(), context);
   warn_of_contact(call, product->problem, doubts, context);
   return product;
 }

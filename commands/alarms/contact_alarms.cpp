@@ -101,6 +101,9 @@ void warn_of_few_points(const Call& call, const solver::ContactDefinition& defin
   }
 }
 
+/// A reference point that lies within every face.
+Eigen::Vector2d inside_of_face() { return {0.25, 0.25}; }
+
 bool lies_in_plane(const solver::Mesh& mesh) {
   return std::ranges::all_of(mesh.nodes, [](const auto& place) { return place[2] == 0.0; });
 }
@@ -117,11 +120,9 @@ bool bound_bodies(const solver::Mesh& mesh, const std::vector<int>& cells) {
 /// Whether a direction that stands for the outward normal of all these cells points into the bodies behind them
 /// everywhere.
 bool points_inward(const std::array<double, 3>& direction, std::span<const int> cells, const solver::Mesh& mesh) {
-  std::vector<Eigen::Vector3d> places;
-  for (const auto& place : mesh.nodes) places.emplace_back(place[0], place[1], place[2]);
-  const Eigen::Vector2d inside(0.25, 0.25);
+  const std::vector<Eigen::Vector3d> places = solver::places(mesh);
   const auto is_against = [&](int cell) {
-    return solver::outward_normal(mesh, cell, inside, places).dot(Eigen::Vector3d(direction.data())) < 0.0;
+    return solver::outward_normal(mesh, cell, inside_of_face(), places).dot(Eigen::Vector3d(direction.data())) < 0.0;
   };
   return std::ranges::all_of(cells, is_against);
 }
@@ -178,7 +179,7 @@ std::pair<int, int> facing_nodes(const solver::ContactZone& zone, const solver::
   for (const solver::ContactPair& pair : solver::pair_surfaces(alone, mesh, places, 0.0)) {
     if (pair.status != solver::PairingStatus::paired) continue;
     ++count.first;
-    const Eigen::Vector3d out = solver::outward_normal(mesh, pair.facet, Eigen::Vector2d(0.25, 0.25), places);
+    const Eigen::Vector3d out = solver::outward_normal(mesh, pair.facet, inside_of_face(), places);
     const double height = out.dot(places[static_cast<std::size_t>(pair.slave)] - pair.foot);
     count.second += normals.at(pair.slave).dot(out) > same_way && height < -rounding * solver::extent(mesh, pair.facet);
   }

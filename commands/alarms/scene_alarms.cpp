@@ -282,10 +282,10 @@ bool warn_of_other_laws(const interpreter::Call& call, const solver::BehaviourOf
   for (std::size_t cell = 0; cell < std::min(before->size(), now.size()); ++cell) {
     if ((*before)[cell] == now[cell]) continue;
     const auto had = solver::variable_names((*before)[cell]), has = solver::variable_names(now[cell]);
+    if (had == none || has == none) continue;
     // Some laws have variables without names.
-    const bool are_unknown = (had.empty() || has.empty()) && (*before)[cell].relation != now[cell].relation;
-    if ((had == has && !are_unknown) || had == none || has == none) continue;
-    if ((had.empty() || has.empty()) && !are_unknown) continue;
+    const bool is_named = !had.empty() && !has.empty();
+    if (is_named ? had == has : (*before)[cell].relation == now[cell].relation) continue;
     context.diagnostics.alarm(
         "other-variables",
         fmt::format(

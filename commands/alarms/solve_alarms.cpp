@@ -235,12 +235,13 @@ void warn_of_turns(const interpreter::Call& call, const ResultConcept& product, 
       call.span, "take more steps: half as long ones leave half as much");
 }
 
-void warn_of_inverted_cells(const interpreter::Call& call, const ResultConcept& product, Context& context) {
+void warn_of_inverted_cells(const interpreter::Call& call, const ResultConcept& product, double from,
+                            Context& context) {
   const auto& behaviours = product.problem.behaviours;
   if (!behaviours) return;
   for (const solver::ResultStep& step : product.result.steps) {
     const auto found = step.fields.find("DEPL");
-    if (found == step.fields.end()) continue;
+    if (step.instant < from || found == step.fields.end()) continue;
     const auto cell =
         solver::inverted_cell(*product.problem.model, *behaviours, std::get<solver::NodalField>(found->second));
     if (!cell) continue;

@@ -32,7 +32,8 @@ void warn_of_unused_stresses(const interpreter::Call& call, const solver::Static
 /// Alarm `coarse-turns`, where beams in large rotations have turned so far in their steps that they are longer for it.
 void warn_of_turns(const interpreter::Call& call, const ResultConcept& product, Context& context);
 
-/// Alarm `inside-out`: a cell that GREEN_LAGRANGE lets through itself, by the first instant.
-void warn_of_inverted_cells(const interpreter::Call& call, const ResultConcept& product, Context& context);
+/// Alarm `inside-out`: a cell that GREEN_LAGRANGE lets through itself, by the first instant. `from`: that of the first
+/// step that the command has computed.
+void warn_of_inverted_cells(const interpreter::Call& call, const ResultConcept& product, double from, Context& context);
 
 }  // namespace comma::commands

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "commands/analysis/result_reading.hpp"
 #include "commands/analysis/same_mesh.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/beam_forces.hpp"
 #include "solver/fields/discretisation.hpp"
+#include "solver/fields/field_algebra.hpp"
 
 namespace comma::commands {
 
@@ -142,11 +142,7 @@ void check_initial_stresses(const interpreter::Call& call, const solver::StaticP
     const bool by_displacement = law.relation == solver::Relation::hyperelastic && !problem.initial->displacement;
     const bool by_variables = law.kinematics == solver::Kinematics::multiplicative && !has_variables;
     if (!by_displacement && !by_variables) continue;
-    const auto width = static_cast<std::size_t>(stresses.components.size());
-    const auto first = static_cast<std::size_t>(stresses.starts[static_cast<std::size_t>(cell)]) * width,
-               end = static_cast<std::size_t>(stresses.starts[static_cast<std::size_t>(cell) + 1]) * width;
-    const auto values = std::span(stresses.values).subspan(first, end - first);
-    if (std::ranges::none_of(values, [](double value) { return std::abs(value) > 0.0; })) continue;
+    if (!solver::has_other_than_zero(stresses, cell)) continue;
     throw DiagnosticError(
         "unsupported",
         fmt::format("ETAT_INIT: cell {} does not start from stresses: those of {} follow from the {}",
@@ -163,18 +159,20 @@ void complete_variables(solver::StaticProblem& problem, const solver::BehaviourO
   const auto is_small = [](const solver::CellBehaviour& law) {
     return law.kinematics == solver::Kinematics::small || law.kinematics == solver::Kinematics::green_lagrange;
   };
+  const auto is_absent = [](double value) { return std::isnan(value); };
+  const solver::ElementField& given = *problem.initial->variables;
+  std::vector<int> lacking;
+  for (std::size_t cell = 0; cell < std::min(before->size(), problem.behaviours->size()); ++cell)
+    if ((*before)[cell].relation == solver::Relation::elastic && is_small((*before)[cell]) &&
+        is_small((*problem.behaviours)[cell]) &&
+        std::ranges::any_of(solver::values_of_cell(given, static_cast<int>(cell)), is_absent))
+      lacking.push_back(static_cast<int>(cell));
+  if (lacking.empty()) return;
   auto state = std::make_shared<solver::InitialState>(*problem.initial);
-  solver::ElementField& variables = *state->variables;
-  const std::size_t width = variables.components.size();
-  for (std::size_t cell = 0; cell < std::min(before->size(), problem.behaviours->size()); ++cell) {
-    if ((*before)[cell].relation != solver::Relation::elastic || !is_small((*before)[cell]) ||
-        !is_small((*problem.behaviours)[cell]))
-      continue;
-    const auto first = variables.values.begin() + static_cast<std::ptrdiff_t>(variables.starts[cell] * width),
-               end = variables.values.begin() + static_cast<std::ptrdiff_t>(variables.starts[cell + 1] * width);
-    std::replace_if(
-        first, end, [](double value) { return std::isnan(value); }, 0.0);
-  }
+  const auto width = static_cast<std::ptrdiff_t>(given.components.size());
+  for (const int cell : lacking)
+    std::replace_if(state->variables->values.begin() + given.starts[cell] * width,
+                    state->variables->values.begin() + given.starts[cell + 1] * width, is_absent, 0.0);
   problem.initial = std::move(state);
 }
 

@@ -14,6 +14,7 @@
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/discretisation.hpp"
+#include "solver/fields/field_algebra.hpp"
 
 namespace comma::commands {
 
@@ -116,13 +117,6 @@ std::span<const std::string_view> strains_of(const LoadedModel& target, int cell
   return {};
 }
 
-bool is_stressed(const solver::ElementField& field, int cell) {
-  const std::size_t width = field.components.size();
-  const auto begin = field.values.begin() + static_cast<std::ptrdiff_t>(field.starts[cell] * width);
-  const auto end = field.values.begin() + static_cast<std::ptrdiff_t>(field.starts[cell + 1] * width);
-  return std::any_of(begin, end, [](double value) { return std::abs(value) > 0.0; });
-}
-
 bool has_strain(const LoadedModel& target, int cell, const std::string& component) {
   return std::ranges::count(strains_of(target, cell), component) > 0;
 }
@@ -198,7 +192,7 @@ void add_initial_stresses(const Keywords& call, const LoadedModel& target, solve
     auto field = field_at_points(occurrence, "SIGM", target);
     require_taken(occurrence, initial_stress_field, *field, target);
     for (int cell = 0; cell < target.mesh.cell_count(); ++cell)
-      if (is_plate(target, cell) && is_stressed(*field, cell))
+      if (is_plate(target, cell) && solver::has_other_than_zero(*field, cell))
         throw DiagnosticError("unsupported",
                               fmt::format("PRE_SIGM: the field has stresses on plate {}, where comma knows none as a "
                                           "load",

@@ -216,12 +216,19 @@ void fill_with_zeros(ElementField& field, const Model& model) {
   field.values = std::move(values);
 }
 
+std::span<const double> values_of_cell(const ElementField& field, int cell) {
+  const std::size_t width = field.components.size(), first = static_cast<std::size_t>(field.starts[cell]) * width,
+                    end = static_cast<std::size_t>(field.starts[cell + 1]) * width;
+  return std::span(field.values).subspan(first, end - first);
+}
+
+bool has_other_than_zero(const ElementField& field, int cell) {
+  return std::ranges::any_of(values_of_cell(field, cell), [](double value) { return std::abs(value) > 0.0; });
+}
+
 bool is_zero(const ElementField& field, int cell) {
-  const auto width = static_cast<std::ptrdiff_t>(field.components.size());
-  const auto begin = field.values.begin() + field.starts[cell] * width,
-             end = field.values.begin() + field.starts[cell + 1] * width;
-  return std::any_of(begin, end, [](double value) { return value == 0.0; }) &&
-         std::all_of(begin, end, [](double value) { return value == 0.0 || std::isnan(value); });
+  return !has_other_than_zero(field, cell) &&
+         std::ranges::any_of(values_of_cell(field, cell), [](double value) { return value == 0.0; });
 }
 
 void drop_empty_cells(ElementField& field) {

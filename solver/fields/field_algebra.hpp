@@ -56,6 +56,12 @@ void fill_absent(Field& field, double value);
 /// cell does not, stays absent.
 void fill_with_zeros(ElementField& field, const Model& model);
 
+/// What a cell has, point after point.
+std::span<const double> values_of_cell(const ElementField& field, int cell);
+
+/// Whether a cell has a value that is neither zero nor absent.
+bool has_other_than_zero(const ElementField& field, int cell);
+
 /// Whether a cell has values, none of them other than zero.
 bool is_zero(const ElementField& field, int cell);
 
