@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <new>
+#include <span>
 #include <stdexcept>
 
 namespace comma::interpreter {
@@ -90,16 +91,31 @@ bool Executor::is_in_turn(const CommandNode& node) const {
 
 void Executor::run_all(Need least) {
   const auto needs = graph_.needs();
-  for (CommandNode& node : graph_.nodes()) {
-    if (node.state != NodeState::waiting) continue;
-    const bool wanted = needs[static_cast<std::size_t>(node.id)] >= least;
-    if (wanted && can_run(node)) {
-      run_reporting(node);
-      continue;
-    }
-    node.state = NodeState::skipped;
-    if (wanted) is_told_of_left_out(node);
+  for (CommandNode& node : graph_.nodes()) run_or_skip(node, needs[static_cast<std::size_t>(node.id)] >= least);
+}
+
+void Executor::run_begun(Need least, int count) {
+  const auto needs = graph_.needs();
+  const std::span<CommandNode> begun(graph_.nodes().data(), static_cast<std::size_t>(count));
+  const auto solves = [](const CommandNode& node) { return node.cost == Cost::solve; };
+  const auto has_tried = [&](const CommandNode& node) { return solves(node) && node.state != NodeState::waiting; };
+  const auto has_failed = [&](const CommandNode& node) { return solves(node) && is_reported(node); };
+  if (std::ranges::none_of(begun, has_tried)) return;
+  const bool may_solve = std::ranges::any_of(begun, has_failed);
+  for (CommandNode& node : begun) {
+    if (!may_solve && is_reported(node)) return;
+    run_or_skip(node, needs[static_cast<std::size_t>(node.id)] >= least && (may_solve || !solves(node)));
   }
+}
+
+void Executor::run_or_skip(CommandNode& node, bool wanted) {
+  if (node.state != NodeState::waiting) return;
+  if (wanted && can_run(node)) {
+    run_reporting(node);
+    return;
+  }
+  node.state = NodeState::skipped;
+  if (wanted) is_told_of_left_out(node);
 }
 
 /// What failed has been told as an error, what was left out as an alarm alone.

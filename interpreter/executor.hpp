@@ -42,6 +42,10 @@ class Executor {
   /// others still run.
   void run_all(Need least);
 
+  /// The same for the first `count` nodes of a file that goes wrong after them, once the file itself has asked for a
+  /// solution: what has been solved is written and judged. Nothing more is solved unless a solution is what failed.
+  void run_begun(Need least, int count);
+
   /// Runs a node and what it depends on, each once. The first failure ends it: inside of `try` it is thrown as a
   /// DiagnosticError, that of another call is reported, now or before, and gives false.
   bool force(int id);
@@ -62,6 +66,8 @@ class Executor {
   void run(CommandNode& node);
   /// Reports what `run` throws.
   void run_reporting(CommandNode& node);
+  /// Runs a node that is needed and can run; else it is skipped.
+  void run_or_skip(CommandNode& node, bool wanted);
   /// Whether its failure has been reported, and is none that the file deals with.
   static bool is_reported(const CommandNode& node) { return node.state == NodeState::failed && !node.caught; }
   /// `unsupported`: how grave it is that comma cannot do what a node asks. Returns whether what failed has been told as

@@ -50,6 +50,7 @@ Value Session::call(const CommandCall& written, bool eager) {
   node.left_out = checked.left_out;
   node.called_from = diagnostics_.called_from();
   const int id = node.id;
+  if (!diagnostics_.has_errors()) nodes_before_errors_ = id + 1;
   if (late_calls_.note_last(graph_, page.inside.further != nullptr) && !eager && may_run(id)) executor_.run_now(id);
   // Loops that compute at once would keep all that they have given up.
   if ((page.destroys || page.role == Role::naming) && may_run(id)) executor_.run_in_turn(id);
@@ -92,8 +93,11 @@ void Session::judge(const Assertion& assertion) {
 void Session::finish() {
   const Need least = options_.only_tests ? Need::output : Need::nothing;
   executor_.run_cheap(least, options_.check_only, call_check_);
-  if (options_.check_only || diagnostics_.has_errors()) return;
-  executor_.run_all(least);
+  if (options_.check_only) return;
+  if (diagnostics_.has_errors())
+    executor_.run_begun(least, nodes_before_errors_);
+  else
+    executor_.run_all(least);
 }
 
 ConceptPtr Session::make_concept(const std::string& type, const std::string& name, const Span& span) {

@@ -58,7 +58,8 @@ class Session : public CommandHost {
   void set_call_check(CallCheck check) { call_check_ = std::move(check); }
 
   /// After the last statement: runs the graph. First what is cheap, so that a group which does not exist is found
-  /// before anything is solved; then, if all is right so far, the rest.
+  /// before anything is solved; then, if all is right so far, the rest. Where an error comes after the file has asked
+  /// for what is solved, what stands before it is written and judged all the same.
   void finish();
 
   const CommandGraph& graph() const { return graph_; }
@@ -77,6 +78,7 @@ class Session : public CommandHost {
   AssertionSink assertion_sink_;
   CallCheck call_check_;
   LateCalls late_calls_;
+  int nodes_before_errors_ = 0;
   int next_concept_ = 0;
 };
 

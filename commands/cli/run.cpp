@@ -27,7 +27,8 @@ void show_summary(const Context& context, int status, double seconds) {
       std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& verdict) { return verdict.passed; });
   const auto failed = static_cast<std::ptrdiff_t>(verdicts.size()) - held;
   std::string text = fmt::format("{} {} hold, {} fail", held, held == 1 ? "verdict" : "verdicts", failed);
-  if (status == the_file_is_wrong) text = "the file is wrong; nothing more was computed";
+  if (status == the_file_is_wrong)
+    text = (verdicts.empty() ? "" : text + "; ") + "the file is wrong; nothing more was computed";
   if (status == the_computation_failed) text += "; the computation failed";
   context.console.line(fmt::format("{}   ({:.0f} ms)", text, 1e3 * seconds));
 }

@@ -218,6 +218,28 @@ TEST_CASE(
   CHECK(world.state(3) == NodeState::waiting);
 }
 
+TEST_CASE("What stands before an error is written and judged where the file has asked for what is solved") {
+  const bool solving_fails = GENERATE(true, false);
+  World world;
+  const Value mesh = world.call("MESH", {}, "MA");
+  const Value model = world.call("MODEL", {{"MESH", mesh}}, "MO");
+  const Value first = world.call("SOLVE", {{"MODEL", model}}, "R1");
+  world.call("VERIFY", {{"WHAT", first}});
+  world.session.force(first.as_concept());
+  world.call("SOLVE", {{"MODEL", model}}, "R2");
+  if (solving_fails) {
+    world.failing = "R3";
+    const Value third = world.call("SOLVE", {{"MODEL", model}}, "R3");
+    CHECK_FALSE(world.session.force(third.as_concept()));
+  } else {
+    world.diagnostics.error("unknown-keyword", "there is no such keyword", {});
+  }
+  world.call("VERIFY", {{"WHAT", first}});
+  world.session.finish();
+  CHECK(world.log == (solving_fails ? Log{"MESH MA", "MODEL MO", "SOLVE R1", "SOLVE R3", "VERIFY", "SOLVE R2"}
+                                    : Log{"MESH MA", "MODEL MO", "SOLVE R1", "VERIFY"}));
+}
+
 TEST_CASE("A failure stops what depends on it, and only that; all failures are told at their place") {
   World world;
   world.failing = "R1";
