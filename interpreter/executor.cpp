@@ -175,9 +175,12 @@ bool Executor::is_cheap(int id) const {
 void Executor::forgive(int id) { graph_.nodes()[static_cast<std::size_t>(id)].forgiven = true; }
 
 void Executor::run(CommandNode& node) {
+  if (before_run_) before_run_(node);
   const Diagnostics::LaterWork scope(diagnostics_, node.called_from);
   const auto start = std::chrono::steady_clock::now();
+  ++running_;
   const auto stop_clock = [&] {
+    --running_;
     node.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   };
   try {

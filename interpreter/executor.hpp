@@ -38,6 +38,10 @@ class Executor {
   /// must outlive the executor.
   void prepare_with(const CommandTable& preparations) { preparations_ = &preparations; }
 
+  bool is_running() const { return running_ > 0; }
+  /// Called before a node runs.
+  void set_before_run(std::function<void(const CommandNode&)> act) { before_run_ = std::move(act); }
+
   /// Runs all nodes that are needed at least so much. A failing node is reported and stops those that build on it; the
   /// others still run.
   void run_all(Need least);
@@ -91,6 +95,8 @@ class Executor {
   const CommandTable& commands_;
   const CommandTable* preparations_ = nullptr;
   Diagnostics& diagnostics_;
+  std::function<void(const CommandNode&)> before_run_;
+  int running_ = 0;
 };
 
 }  // namespace comma::interpreter

@@ -6,10 +6,22 @@
 #include "interpreter/foreign_commands.hpp"
 
 namespace comma::interpreter {
+namespace {
+
+/// Whether what a command does is told where it is done: what is cheap runs in any order.
+bool speaks(const CommandNode& node) {
+  return node.cost == Cost::solve || node.role == Role::output || node.role == Role::verdict;
+}
+
+}  // namespace
 
 Session::Session(const Catalogue& catalogue, const CommandTable& commands, Diagnostics& diagnostics,
                  SessionOptions options)
-    : catalogue_(catalogue), diagnostics_(diagnostics), options_(options), executor_(graph_, commands, diagnostics) {}
+    : catalogue_(catalogue), diagnostics_(diagnostics), options_(options), executor_(graph_, commands, diagnostics) {
+  executor_.set_before_run([this](const CommandNode& node) {
+    if (speaks(node)) write_printed(static_cast<std::size_t>(node.id));
+  });
+}
 
 bool Session::is_command(std::string_view name) const { return catalogue_.has(name) || is_foreign_command(name); }
 
@@ -86,6 +98,31 @@ void Session::before_binding(std::string_view name) {
   }
 }
 
+void Session::print(std::string_view text) {
+  if (!output_) return;
+  if (runs_calls() && !executor_.is_running() && is_anything_said_later()) {
+    printed_[graph_.nodes().size()] += text;
+    return;
+  }
+  if (!executor_.is_running()) write_printed(graph_.nodes().size());
+  output_(text);
+}
+
+bool Session::is_anything_said_later() {
+  const auto& nodes = graph_.nodes();
+  const auto will_speak = [](const CommandNode& node) {
+    return speaks(node) && node.complete && node.state == NodeState::waiting;
+  };
+  while (first_to_speak_ < nodes.size() && !will_speak(nodes[first_to_speak_])) ++first_to_speak_;
+  return first_to_speak_ < nodes.size();
+}
+
+void Session::write_printed(std::size_t nodes) {
+  const auto end = printed_.upper_bound(nodes);
+  for (auto text = printed_.begin(); text != end; ++text) output_(text->second);
+  printed_.erase(printed_.begin(), end);
+}
+
 void Session::judge(const Assertion& assertion) {
   if (assertion_sink_) assertion_sink_(assertion);
 }
@@ -93,11 +130,12 @@ void Session::judge(const Assertion& assertion) {
 void Session::finish() {
   const Need least = options_.only_tests ? Need::output : Need::nothing;
   executor_.run_cheap(least, options_.check_only, call_check_);
-  if (options_.check_only) return;
+  if (options_.check_only) return;  // and nothing that was printed waits
   if (diagnostics_.has_errors())
     executor_.run_begun(least, nodes_before_errors_);
   else
     executor_.run_all(least);
+  write_printed(graph_.nodes().size());
 }
 
 ConceptPtr Session::make_concept(const std::string& type, const std::string& name, const Span& span) {

@@ -46,6 +46,10 @@ class Session : public CommandHost {
   bool runs_calls() const override { return !options_.check_only && !diagnostics_.has_errors(); }
   void judge(const Assertion& assertion) override;
 
+  /// What print() says. It is written in the file's order among what commands say: not before those that still wait.
+  void print(std::string_view text);
+  /// Where it goes; nowhere without one.
+  void set_output(std::function<void(std::string_view)> output) { output_ = std::move(output); }
   void set_assertion_sink(AssertionSink sink) { assertion_sink_ = std::move(sink); }
   /// A command that acts while the file is being read, and stands for nothing in the graph (INCLUDE). It may throw
   /// DiagnosticError.
@@ -68,6 +72,9 @@ class Session : public CommandHost {
   ConceptPtr make_concept(const std::string& type, const std::string& name, const Span& span);
   bool may_run(int node) const;
   void name_files();
+  bool is_anything_said_later();
+  /// Writes what was printed before the first so many nodes were all.
+  void write_printed(std::size_t nodes);
 
   const Catalogue& catalogue_;
   Diagnostics& diagnostics_;
@@ -79,6 +86,10 @@ class Session : public CommandHost {
   CallCheck call_check_;
   LateCalls late_calls_;
   int nodes_before_errors_ = 0;
+  std::function<void(std::string_view)> output_;
+  /// What was printed and has to wait, by the number of nodes then.
+  std::map<std::size_t, std::string> printed_;
+  std::size_t first_to_speak_ = 0;  ///< nodes before it say nothing any more
   int next_concept_ = 0;
 };
 

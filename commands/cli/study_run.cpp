@@ -85,12 +85,11 @@ StudyRun::StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions
   });
   session_.act_at_once("INCLUDE", [this](const interpreter::Call& call) { include(call); });
   session_.act_at_once("POURSUITE", [this](const interpreter::Call& call) { go_on(call); });
+  session_.set_output([this](std::string_view text) {
+    if (!unreadable_) context_.console.print(text);
+  });
   evaluator_ = std::make_unique<interpreter::Evaluator>(
-      session_, diagnostics_,
-      [this](std::string_view text) {
-        if (!unreadable_) context_.console.print(text);
-      },
-      limits_);
+      session_, diagnostics_, [this](std::string_view text) { session_.print(text); }, limits_);
 }
 
 void StudyRun::run() {

@@ -240,6 +240,32 @@ TEST_CASE("What stands before an error is written and judged where the file has 
                                     : Log{"MESH MA", "MODEL MO", "SOLVE R1", "VERIFY"}));
 }
 
+TEST_CASE("What the file prints stands among what its commands say, in the order of the file") {
+  World world;
+  world.session.set_output([&](std::string_view text) { world.log.emplace_back(text); });
+  world.session.print("start");
+  const Value mesh = world.call("MESH", {}, "MA");
+  const Value model = world.call("MODEL", {{"MESH", mesh}}, "MO");
+  world.session.print("first");
+  CHECK(world.log == Log{"start", "first"});
+  const Value first = world.call("SOLVE", {{"MODEL", model}}, "R1");
+  world.session.print("second, ");
+  world.session.print("and more");
+  const Value second = world.call("SOLVE", {{"MODEL", model}}, "R2");
+  world.session.print("last");
+  CHECK(world.log == Log{"start", "first"});
+  const bool reads = GENERATE(true, false);
+  if (reads) {
+    world.session.force(first.as_concept());
+    CHECK(world.log == Log{"start", "first", "MESH MA", "MODEL MO", "SOLVE R1"});
+    world.log = {"start", "first"};
+  }
+  world.session.finish();
+  CHECK(world.log ==
+        (reads ? Log{"start", "first", "second, and more", "SOLVE R2", "last"}
+               : Log{"start", "first", "MESH MA", "MODEL MO", "SOLVE R1", "second, and more", "SOLVE R2", "last"}));
+}
+
 TEST_CASE("A failure stops what depends on it, and only that; all failures are told at their place") {
   World world;
   world.failing = "R1";
