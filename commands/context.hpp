@@ -53,6 +53,12 @@ struct WrittenMesh {
   std::string name;
 };
 
+/// What a file of the format MED holds so far: its meshes, and which concept each step of a field, by its order, is of.
+struct WrittenMedFile {
+  std::vector<WrittenMesh> meshes;
+  std::map<std::string, std::map<int, int>> steps;
+};
+
 struct Context {
   Files files;
   Console console;
@@ -62,8 +68,8 @@ struct Context {
   bool only_checks = false;  ///< nothing will be solved
   /// Outputs that this run has opened: the first writing replaces, later ones append.
   std::set<std::string> written = {};
-  std::set<int> released_units = {};                               ///< IMPR_RESU begins anew what these held
-  std::map<std::string, std::vector<WrittenMesh>> med_files = {};  ///< outputs of the format MED, likewise
+  std::set<int> released_units = {};                     ///< IMPR_RESU begins anew what these held
+  std::map<std::string, WrittenMedFile> med_files = {};  ///< outputs of the format MED, likewise
 
   /// Appends text to the output of a unit; the first time in a run the file starts anew.
   void write(const std::filesystem::path& path, std::string_view text);

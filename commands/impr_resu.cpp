@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <span>
 
 #include "commands/analysis/result_reading.hpp"
 #include "commands/analysis/same_mesh.hpp"
@@ -290,8 +291,27 @@ std::string free_name(const std::vector<WrittenMesh>& others, const std::string&
   return free;
 }
 
+// A loop that writes its results by one name writes over those before.
+void note_steps(const Keywords& print, std::span<const solver::NamedResult> results, WrittenMedFile& file,
+                interpreter::Diagnostics& diagnostics) {
+  const int source = print.concept_of(print.has("RESULTAT") ? "RESULTAT" : "CHAM_GD")->id;
+  std::set<std::string> replaced;
+  for (const solver::NamedResult& each : results)
+    for (const solver::ResultStep& step : each.result.steps)
+      for (const auto& [field, values] : step.fields) {
+        const std::string name = field.empty() ? each.name : field + " of " + each.name;
+        const auto [known, is_new] = file.steps[name].try_emplace(step.order, source);
+        if (!is_new && std::exchange(known->second, source) != source) replaced.insert(name);
+      }
+  if (replaced.empty()) return;
+  diagnostics.alarm("replaced-step",
+                    fmt::format("IMPR_RESU: the file holds steps of {} from an earlier result, which these replace",
+                                fmt::join(replaced, ", ")),
+                    print.span, "give each result a name there (NOM_RESU_MED, NOM_CHAM_MED), or a UNITE of its own");
+}
+
 // The first time in a run the file is made anew, as those of text are.
-void write_med(const Call& call, const std::string& path, std::vector<WrittenMesh>& known) {
+void write_med(const Call& call, const std::string& path, WrittenMedFile& file, interpreter::Diagnostics& diagnostics) {
   std::vector<PrintedPart> parts;
   for (const Keywords& print : call.factors("RESU")) parts.push_back(part_of(print, true));
   std::vector<solver::NamedResult> results;
@@ -301,9 +321,12 @@ void write_med(const Call& call, const std::string& path, std::vector<WrittenMes
     if (parts[i].mesh_alone) {
       mesh_name = parts[i].name;
     } else {
+      const std::size_t first = results.size();
       add_med_results(call.factors("RESU")[i], parts[i], results);
+      note_steps(call.factors("RESU")[i], std::span(results).subspan(first), file, diagnostics);
     }
   }
+  std::vector<WrittenMesh>& known = file.meshes;
   const auto& mesh = parts.front().shared_mesh;
   const auto found = std::ranges::find(known, mesh, &WrittenMesh::mesh);
   mesh_name = found == known.end() ? free_name(known, mesh_name) : found->name;
@@ -480,9 +503,9 @@ Product impr_resu(const Call& call, Context& context) {
     warn_of_fields_out_of_reach(print, call.text("FORMAT") == "MED", context.diagnostics);
   }
   if (word == "MED") {
-    auto& meshes = context.med_files[path.string()];
-    const bool is_new = meshes.empty();
-    write_med(call, path.string(), meshes);
+    WrittenMedFile& file = context.med_files[path.string()];
+    const bool is_new = file.meshes.empty();
+    write_med(call, path.string(), file, context.diagnostics);
     if (is_new) context.console.progress("  writes " + path.string());
     return nullptr;
   }
