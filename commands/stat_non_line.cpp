@@ -296,6 +296,7 @@ Product prepare_stat_non_line(const Call& call, Context& context) {
 Product stat_non_line(const Call& call, Context& context) {
   Scene scene = scene_of(call);
   const auto& product = scene.product;
+  if (!call.has("PILOTAGE")) check_multipliers(call, std::span(scene.steps.instants).subspan(1));
   show_header(call, context);
   // What has converged stays readable although the computation goes on to fail.
   call.result->data = product;

@@ -76,6 +76,7 @@ class Evaluator {
   Flow execute_for(const ForStatement& statement);
   Flow execute_try(const TryStatement& statement);
   Flow execute_with(const WithStatement& statement);
+  void forget_handlers(const TryStatement& statement);
   Flow execute_handler(const TryStatement::Handler& handler, const RaisedError& error);
   Flow execute_broken(const BrokenStatement& statement);
   Flow skip_unknown(const Statement& statement);
@@ -186,6 +187,7 @@ class Evaluator {
   bool names_lost_ = false;                   ///< an unknown name may be one that a broken statement would have bound
   std::size_t errors_seen_ = 0;               ///< how many diagnostics `failures_` has counted
   int tries_ = 0;
+  std::uint64_t calls_left_alone_ = 0;  ///< by a host that runs none, so that nobody knows what they would have done
   int strict_ = 0;
   int calls_ = 0;
   int guests_ = 0;  ///< calls from outside under way

@@ -250,6 +250,12 @@ Value Evaluator::make_factor(const CallArguments& arguments) {
   return Value(std::move(factor));
 }
 
+namespace {
+
+bool is_computed(const Value& product) { return product.is_concept() && product.as_concept()->data != nullptr; }
+
+}  // namespace
+
 Value Evaluator::call_command(const std::string& name, const CallArguments& arguments) {
   if (guests_ > 0) raise(ErrorKind::runtime, fmt::format("a function that a formula calls cannot call {}", name));
   CommandCall command;
@@ -261,6 +267,7 @@ Value Evaluator::call_command(const std::string& name, const CallArguments& argu
   command.target = arguments.target;
   command.scope = [this](std::string_view word) { return visible(word); };
   Value product = with_host([&] { return host_.call(command, !recovering()); });
+  if (!host_.runs_calls() && !is_computed(product)) ++calls_left_alone_;
   if (name != "FIN") return product;
   // What follows it is not run (U4.11.02): as after sys.exit().
   auto exit = make_exception(ErrorKind::system_exit, "");

@@ -248,15 +248,23 @@ Evaluator::Flow Evaluator::execute_for(const ForStatement& statement) {
   return execute(statement.otherwise);
 }
 
+/// What nobody knows whether it would have been caught: what handlers bind may be what it was.
+void Evaluator::forget_handlers(const TryStatement& statement) {
+  for (const auto& handler : statement.handlers)
+    for (const StatementPtr& each : handler.body) forget_bound(*each);
+}
+
 /// The body with its handlers and `else`, without `finally`.
 Evaluator::Flow Evaluator::execute_body(const TryStatement& statement) {
   if (statement.handlers.empty()) return execute(statement.body);
   std::optional<RaisedError> caught;
   const TryStatement::Handler* handler = nullptr;
+  const std::uint64_t left_alone = calls_left_alone_;
   try {
     const Counted inside(tries_);
     const Flow flow = execute(statement.body);
     if (flow != Flow::next) return flow;
+    if (calls_left_alone_ != left_alone) forget_handlers(statement);
   } catch (const RaisedError& error) {
     for (const auto& candidate : statement.handlers) {
       if (!handles(candidate, *error.object())) continue;

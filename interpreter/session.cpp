@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "interpreter/expression_keywords.hpp"
 #include "interpreter/foreign_commands.hpp"
 
@@ -147,9 +149,11 @@ ConceptPtr Session::make_concept(const std::string& type, const std::string& nam
   return handle;
 }
 
-bool Session::may_run(int node) const {
+bool Session::may_run(int node) {
   if (executor_.is_cheap(node)) return true;
-  return !options_.check_only && !diagnostics_.has_errors();
+  if (!runs_calls()) return false;
+  if (const auto look_ahead = std::exchange(look_ahead_, nullptr)) look_ahead();
+  return true;
 }
 
 }  // namespace comma::interpreter

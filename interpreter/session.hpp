@@ -60,6 +60,9 @@ class Session : public CommandHost {
   void prepare_with(const CommandTable& preparations) { executor_.prepare_with(preparations); }
   /// Looks at each call before anything is solved; see Executor::run_cheap.
   void set_call_check(CallCheck check) { call_check_ = std::move(check); }
+  /// Called once, before the first solution that the file asks for while it is being read. It may throw what ends the
+  /// run there.
+  void look_ahead_with(std::function<void()> look_ahead) { look_ahead_ = std::move(look_ahead); }
 
   /// After the last statement: runs the graph. First what is cheap, so that a group which does not exist is found
   /// before anything is solved; then, if all is right so far, the rest. Where an error comes after the file has asked
@@ -70,7 +73,7 @@ class Session : public CommandHost {
 
  private:
   ConceptPtr make_concept(const std::string& type, const std::string& name, const Span& span);
-  bool may_run(int node) const;
+  bool may_run(int node);
   void name_files();
   bool is_anything_said_later();
   /// Writes what was printed before the first so many nodes were all.
@@ -84,6 +87,7 @@ class Session : public CommandHost {
   std::map<std::string, std::function<void(const Call&)>, std::less<>> immediate_;
   AssertionSink assertion_sink_;
   CallCheck call_check_;
+  std::function<void()> look_ahead_;
   LateCalls late_calls_;
   int nodes_before_errors_ = 0;
   std::function<void(std::string_view)> output_;

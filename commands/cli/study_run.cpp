@@ -51,6 +51,11 @@ bool is_one_of(const Codes& codes, const std::string& code) {
   return std::find(codes.begin(), codes.end(), code) != codes.end();
 }
 
+/// What a check of the whole file finds before anything is solved.
+struct FoundAhead {
+  std::vector<Diagnostic> findings;
+};
+
 int status_of(const Diagnostic& diagnostic) {
   if (is_one_of(machine_codes, diagnostic.code)) return anything_else;
   return is_one_of(computation_codes, diagnostic.code) ? the_computation_failed : the_file_is_wrong;
@@ -85,6 +90,7 @@ StudyRun::StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions
   });
   session_.act_at_once("INCLUDE", [this](const interpreter::Call& call) { include(call); });
   session_.act_at_once("POURSUITE", [this](const interpreter::Call& call) { go_on(call); });
+  if (!options.check_only) session_.look_ahead_with([this] { look_ahead(); });
   session_.set_output([this](std::string_view text) {
     if (!unreadable_) context_.console.print(text);
   });
@@ -93,6 +99,23 @@ StudyRun::StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions
 }
 
 void StudyRun::run() {
+  try {
+    read_and_run();
+  } catch (const FoundAhead& ahead) {
+    diagnostics_ = {};
+    for (const Diagnostic& finding : ahead.findings) diagnostics_.add(finding);
+  }
+}
+
+void StudyRun::look_ahead() {
+  StudyRun check(study_, Verbosity::quiet, {.check_only = true}, limits_);
+  check.session_.set_output({});
+  check.session_.set_assertion_sink({});
+  check.read_and_run();
+  if (check.diagnostics_.has_errors()) throw FoundAhead{check.diagnostics_.items()};
+}
+
+void StudyRun::read_and_run() {
   for (const fs::path& file : study_.command_files) {
     ++files_begun_;
     evaluator_->run(read(file));

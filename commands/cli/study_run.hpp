@@ -25,7 +25,8 @@ class StudyRun {
   StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions options, interpreter::Limits limits = {});
 
   /// Parses, evaluates, checks, and executes as far as the options say. Everything that is wrong ends up in
-  /// diagnostics().
+  /// diagnostics(). Before the first solution that the file needs in order to be read on, the rest is checked as far as
+  /// that can be done without: what is wrong there ends the run.
   void run();
 
   const interpreter::CommandGraph& graph() const { return session_.graph(); }
@@ -33,6 +34,8 @@ class StudyRun {
   const Context& context() const { return context_; }
 
  private:
+  void read_and_run();
+  void look_ahead();
   interpreter::Ast read(const std::filesystem::path& file);
   void warn_of_unused_loads();
   /// INCLUDE: runs another file at its place.

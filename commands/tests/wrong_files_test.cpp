@@ -1,6 +1,8 @@
 // Every file of tests/wrong is wrong in one way (sound.comm in none). Beside NAME.comm stands NAME.expected: the exit
 // status and what a user reads, to the letter. COMMA_UPDATE_EXPECTED=1 in the environment writes them anew, to be read
 // before they are committed.
+#include <unistd.h>
+
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <filesystem>
@@ -58,6 +60,26 @@ TEST_CASE("Each wrong file gets its message, to the letter") {
       CHECK(outcome(file) == text_of(expected));
     }
   }
+}
+
+TEST_CASE("What is wrong is told before a solution that the file has to read") {
+  const fs::path scratch = fs::temp_directory_path() / ("comma-read-" + std::to_string(getpid()));
+  fs::create_directories(scratch);
+  fs::copy_file(folder / "plate.mail", scratch / "plate.mail", fs::copy_options::overwrite_existing);
+  std::string text = text_of(folder / "sound.comm");
+  text.resize(text.find("FIN()"));
+  text += "table = CREA_TABLE(RESU=_F(RESULTAT=result, NOM_CHAM='DEPL', INST=1.0, GROUP_NO='CORNER', NOM_CMP='DY'))\n";
+  const auto factorisations = [&](const std::string& last, const std::string& code) {
+    std::ofstream(scratch / "read.comm") << text << "print(table['DY', 1])\n" << last;
+    StudyRun pass(open_study(scratch / "read.comm"), Verbosity::quiet, {});
+    pass.run();
+    const auto& found = pass.diagnostics().items();
+    CHECK((code.empty() ? found.empty() : found.size() == 1 && found.front().code == code));
+    return pass.context().counters.factorisations;
+  };
+  CHECK(factorisations("IMPR_TABLE(TABLE=table)\n", "") == 1);
+  CHECK(factorisations("IMPR_TABLE(TABEL=table)\n", "unknown-keyword") == 0);
+  fs::remove_all(scratch);
 }
 
 TEST_CASE("The sound file is sound") { CHECK(outcome(folder / "sound.comm") == "exit 0\n"); }

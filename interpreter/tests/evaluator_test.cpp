@@ -294,6 +294,18 @@ TEST_CASE("A check does not say that nothing was raised by what it does not run"
   CHECK(verdicts_of("with test.assertRaises(ValueError):\n    fail()\n", false) == Findings{"assertRaises holds"});
 }
 
+TEST_CASE("A check does not know whether a handler has bound what it would", "[evaluator]") {
+  const auto findings = [](const std::string& inside) {
+    auto host = std::make_unique<JudgingHost>();
+    host->solves = false;
+    return Run("told = ''\ntry:\n    " + inside + "\nexcept Exception as error:\n    told = str(error)\nassert told\n",
+               std::move(host))
+        .findings();
+  };
+  CHECK(findings("STAT_NON_LINE()").empty());
+  CHECK(findings("x = 1") == Findings{"assertion-failed 6:1"});
+}
+
 TEST_CASE("Variables stay from one file to the next", "[evaluator]") {
   RecordingHost host;
   Diagnostics diagnostics;

@@ -218,6 +218,18 @@ TEST_CASE(
   CHECK(world.state(3) == NodeState::waiting);
 }
 
+TEST_CASE("The rest of the file is looked at once before a solution that it asks for while it is read") {
+  World world;
+  world.session.look_ahead_with([&] { world.log.emplace_back("look"); });
+  const Value mesh = world.call("MESH", {}, "MA");
+  CHECK(world.session.force(mesh.as_concept()));
+  const Value model = world.call("MODEL", {{"MESH", mesh}}, "MO");
+  for (const char* name : {"R1", "R2"}) world.session.force(world.call("SOLVE", {{"MODEL", model}}, name).as_concept());
+  world.call("SOLVE", {{"MODEL", model}}, "R3");
+  world.session.finish();
+  CHECK(world.log == Log{"MESH MA", "look", "MODEL MO", "SOLVE R1", "SOLVE R2", "SOLVE R3"});
+}
+
 TEST_CASE("What stands before an error is written and judged where the file has asked for what is solved") {
   const bool solving_fails = GENERATE(true, false);
   World world;
