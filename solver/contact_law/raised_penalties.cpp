@@ -63,9 +63,9 @@ bool RaisedPenalties::are_raised() const {
   return std::ranges::any_of(contact_, is_raised) || std::ranges::any_of(friction_, is_raised);
 }
 
-void RaisedPenalties::go_on_from(const RaisedPenalties& others, std::size_t zone) {
-  contact_[zone] = others.contact_[zone];
-  friction_[zone] = others.friction_[zone];
+void RaisedPenalties::go_on_from(const RaisedPenalties& others, std::size_t other, std::size_t zone) {
+  contact_[zone] = others.contact_[other];
+  friction_[zone] = others.friction_[other];
 }
 
 void RaisedPenalties::apply(const MixedZone& zone, int number, CondensedPoint& point) const {

@@ -36,8 +36,8 @@ class RaisedPenalties {
 
   /// Whether any is not as it was given.
   bool are_raised() const;
-  /// Those of a zone raised as much as in others; what limits them stays.
-  void go_on_from(const RaisedPenalties& others, std::size_t zone);
+  /// Those of a zone raised as much as those of another among others; what limits them stays.
+  void go_on_from(const RaisedPenalties& others, std::size_t other, std::size_t zone);
 
   /// Raises the penalties of zones where something is too much; whether there were any. Throws Error `no-convergence`
   /// where factors have become too large.

@@ -173,12 +173,13 @@ std::vector<ZoneMemory> MixedContact::zone_definitions() const {
   std::vector<ZoneMemory> zones;
   for (const ContactZone& zone : definition_.zones) {
     const MixedZone& mixed = zone.mixed;
-    zones.push_back(
-        {mixed.bilateral,
-         {},
-         {mixed.penalised ? mixed.augmentation : 0.0, mixed.friction_penalised ? mixed.friction_penalty : 0.0,
-          mixed.largest_depth ? 1.0 : 0.0, mixed.largest_slip ? 1.0 : 0.0,
-          definition_.formulation == ContactFormulation::mixed ? 1.0 : 0.0}});
+    std::vector<int> slave_cells = zone.slave_cells;
+    std::ranges::sort(slave_cells);
+    zones.push_back({mixed.bilateral,
+                     {mixed.penalised ? mixed.augmentation : 0.0,
+                      mixed.friction_penalised ? mixed.friction_penalty : 0.0, mixed.largest_depth ? 1.0 : 0.0,
+                      mixed.largest_slip ? 1.0 : 0.0, definition_.formulation == ContactFormulation::mixed ? 1.0 : 0.0},
+                     std::move(slave_cells)});
   }
   return zones;
 }
@@ -189,7 +190,7 @@ std::shared_ptr<const ContactMemory> MixedContact::memory() const {
   if (!is_bilateral && !penalties_.are_raised()) return nullptr;
   std::vector<ZoneMemory> zones = zone_definitions();
   for (std::size_t p = 0; p < points().size(); ++p)
-    zones[static_cast<std::size_t>(points()[p].zone)].closed.push_back(state_.statuses[p] != ContactStatus::open);
+    zones[static_cast<std::size_t>(points()[p].zone)].points.push_back(remembered(p));
   return std::make_shared<const ContactMemory>(ContactMemory{std::move(zones), penalties_});
 }
 
@@ -197,23 +198,27 @@ void MixedContact::begin_at(const Eigen::VectorXd& u, std::shared_ptr<const Cont
   reference_ = u;
   if (!memory) return;
   const std::vector<ZoneMemory> now = zone_definitions();
-  for (std::size_t zone = 0; zone < std::min(now.size(), memory->zones.size()); ++zone)
-    if (now[zone].penalties == memory->zones[zone].penalties) penalties_.go_on_from(memory->penalties, zone);
+  for (std::size_t zone = 0; zone < now.size(); ++zone) {
+    const auto before = memory->zone_like(now[zone], zone);
+    if (before && now[zone].penalties == memory->zones[*before].penalties)
+      penalties_.go_on_from(memory->penalties, *before, zone);
+  }
   resumed_ = std::move(memory);
 }
 
-/// Which of the points, zone by zone, the computation before left closed where they cannot open again.
+RememberedPoint MixedContact::remembered(std::size_t p) const {
+  return {points()[p].cell, initial_place(points()[p], mesh_), state_.statuses[p] != ContactStatus::open};
+}
+
+/// Which of the points the computation before left closed where they cannot open again.
 std::vector<char> MixedContact::held_points() {
   std::vector<char> held(points().size(), 0);
   const auto memory = std::exchange(resumed_, nullptr);
   if (!memory) return held;
-  std::vector<std::vector<std::size_t>> of_zones(definition_.zones.size());
-  for (std::size_t p = 0; p < points().size(); ++p) of_zones[static_cast<std::size_t>(points()[p].zone)].push_back(p);
-  for (std::size_t zone = 0; zone < std::min(of_zones.size(), memory->zones.size()); ++zone) {
-    const ZoneMemory& before = memory->zones[zone];
-    if (!before.bilateral || !definition_.zones[zone].mixed.bilateral || before.closed.size() != of_zones[zone].size())
-      continue;
-    for (std::size_t k = 0; k < of_zones[zone].size(); ++k) held[of_zones[zone][k]] = before.closed[k];
+  const std::vector<ZoneMemory> zones = zone_definitions();
+  for (std::size_t p = 0; p < points().size(); ++p) {
+    const ZoneMemory& zone = zones[static_cast<std::size_t>(points()[p].zone)];
+    held[p] = zone.bilateral && memory->held(remembered(p), zone, extent(mesh_, points()[p].cell));
   }
   return held;
 }

@@ -39,8 +39,8 @@ class MixedContact {
   void accept_step(double duration) { rates_ = (state_.multipliers - start_) / duration; }
   /// Pressures, statuses and penalties as they are before a step, and back to them when it fails; points must be faced
   /// anew then.
-  void remember() { remembered_ = {state_, penalties_, started_}; }
-  void restore() { std::tie(state_, penalties_, started_) = remembered_; }
+  void remember() { remembered_ = {state_, penalties_, started_, resumed_}; }
+  void restore() { std::tie(state_, penalties_, started_, resumed_) = remembered_; }
   /// What a later computation must know of a step that has been accepted; null where its fields say all.
   std::shared_ptr<const ContactMemory> memory() const;
   /// Starts from displacements u, and goes on from what an earlier computation remembers (may be null); before any
@@ -102,6 +102,7 @@ class MixedContact {
  private:
   void start_statuses(const Eigen::VectorXd& jumps);
   std::vector<ZoneMemory> zone_definitions() const;
+  RememberedPoint remembered(std::size_t p) const;
   std::vector<char> held_points();
   void close_nearest(const Eigen::VectorXd& jumps);
   void apply_penalties(int zone, CondensedPoint& point) const;
@@ -145,7 +146,7 @@ class MixedContact {
   /// Of what is given, between nodes: lowered in a step where nothing else leads to a solution.
   double augmentation_share_ = 1.0;
   bool rubs_by_shears_ = false;  ///< see CondensedSolution::by_shears
-  std::tuple<CondensedState, RaisedPenalties, bool> remembered_;
+  std::tuple<CondensedState, RaisedPenalties, bool, std::shared_ptr<const ContactMemory>> remembered_;
   std::size_t spring_count_ = 0;
   Eigen::VectorXd forces_;  ///< on the rows
   Eigen::VectorXd reference_;

@@ -52,7 +52,7 @@ TEST_CASE("A computation that goes on takes penalties as they were raised, and i
   CHECK(before.are_raised());
   after.limit_depth(0.5, 10.0);
   CHECK_FALSE(after.are_raised());
-  after.go_on_from(before, 0);
+  after.go_on_from(before, 0, 0);
   CHECK(penalties_of(after, 0) == penalties_of(before, 0));
   CHECK(after.allowed_depth(soft_zone()) == 0.5);
 }
