@@ -274,7 +274,7 @@ void warn_of_unused_stresses(const interpreter::Call& call, const solver::Static
 void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::Counters& counters_before,
                                   Context& context) {
   if (call.has("PILOTAGE")) return;  // a path goes beyond limit points
-  if (context.counters.indefinite_factorisations == counters_before.indefinite_factorisations) return;
+  if (context.counters.indefinite_solutions == counters_before.indefinite_solutions) return;
   if (call.has("CONTACT")) {
     context.diagnostics.alarm(
         "indefinite-stiffness",

@@ -11,7 +11,7 @@
 
 namespace comma::commands {
 
-/// Alarm `indefinite-stiffness`, if a factorisation since `counters_before` met a stiffness that is not positive
+/// Alarm `indefinite-stiffness`, if a solution since `counters_before` stands where the stiffness is not positive
 /// definite.
 void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::Counters& counters_before,
                                   Context& context);

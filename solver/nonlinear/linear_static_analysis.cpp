@@ -37,7 +37,8 @@ class LinearStaticAnalysis {
         assembler_(*problem.model, *problem.materials, *problem.properties, dofs_),
         elimination_(*problem.model->mesh, dofs_, problem.loads),
         tangent_options_(tangent_options(options, solutions)),
-        tangent_(*problem.model, dofs_, assembler_, elimination_, tangent_options_, counters) {}
+        tangent_(*problem.model, dofs_, assembler_, elimination_, tangent_options_, counters),
+        counters_(counters) {}
 
   Eigen::VectorXd solve(double time) {
     assembler_.set_time(time);
@@ -63,6 +64,7 @@ class LinearStaticAnalysis {
       last = share;
     }
     if (tangent_options_.linear.singular_digits < 0) require_equilibrium(external, u);
+    if (tangent_.is_indefinite()) ++counters_.indefinite_solutions;
     return u;
   }
 
@@ -96,6 +98,7 @@ class LinearStaticAnalysis {
   Elimination elimination_;
   NewtonOptions tangent_options_;
   TangentSystem tangent_;
+  Counters& counters_;
 };
 
 void refuse_conditions(const StaticProblem& problem) {

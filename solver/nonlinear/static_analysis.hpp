@@ -26,6 +26,7 @@ namespace comma::solver {
 struct Counters {
   long factorisations = 0;
   long indefinite_factorisations = 0;  ///< of a reduced tangent that is not positive definite
+  long indefinite_solutions = 0;       ///< accepted ones, with such a tangent
   long solves = 0;
   long newton_iterations = 0;
   long contact_iterations = 0;

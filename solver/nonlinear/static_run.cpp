@@ -71,6 +71,7 @@ void StaticRun::run(const StepPlan& plan) {
     const std::optional<int> iterations = try_step(instant, sequence);
     if (!iterations) continue;
     newton_.accept_step();
+    if (tangent_.is_indefinite()) ++counters_.indefinite_solutions;
     if (mixed_) mixed_->accept_step(instant - from);
     if (path_) path_->accept_step(now_.state.u);
     mixed_ ? mixed_->note_doubts(now_.state.u, doubts_) : newton_.note_doubts(doubts_);

@@ -161,6 +161,7 @@ TEST_CASE("a stiffness that is not positive definite is counted", "[linear-stati
   scene.ground_spring("S2", free, -3e3, 1e3);
   const auto [result, counters] = solve(scene.problem, {0.0});
   CHECK(counters.indefinite_factorisations == 1);
+  CHECK(counters.indefinite_solutions == 1);
   CHECK(value(result, 0, "DEPL", free, "DX") == exactly(1.0 / (1e3 - 3e3)));
 }
 
