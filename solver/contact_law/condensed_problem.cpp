@@ -16,7 +16,10 @@ Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& st
 }
 
 double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps) {
-  return point.rows > 1 ? jumps.segment(point.first_row + 1, point.rows - 1).norm() : 0.0;
+  if (point.rows < 2) return 0.0;
+  Vector3d jump = Vector3d::Zero();
+  jump.head(point.rows) = jumps.segment(point.first_row, point.rows);
+  return live_part(point.law, jump).tail<2>().norm();
 }
 
 std::vector<char> shared_multipliers(const CondensedProblem& problem) {

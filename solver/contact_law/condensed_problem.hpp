@@ -97,7 +97,8 @@ struct CondensedState {
 Eigen::Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& state,
                               const CondensedPoint& point);
 
-/// How far a point slips where the rows have these jumps; 0 without friction.
+/// How far a point slips where the rows have these jumps, along its dead direction aside (that is a part of the gap
+/// along a surface that lies askew); 0 without friction.
 double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps);
 
 /// Multipliers that points between nodes take part of, or several points of a node, whose normals differ: there the law

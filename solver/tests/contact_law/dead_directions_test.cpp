@@ -35,6 +35,14 @@ TEST_CASE("Along a direction in which a point cannot move there is no friction")
   CHECK(points[0].law.dead.isZero());
 }
 
+TEST_CASE("What is left along a dead direction is no slip: a part of the gap of a surface that lies askew") {
+  std::vector<CondensedPoint> points{point_on_node(0, 3, 0.3)};
+  const Eigen::VectorXd jumps = Eigen::Vector3d(1e-3, 3e-6, 4e-6);
+  CHECK(std::abs(slip_of(points[0], jumps) - 5e-6) < 1e-18);
+  points[0].law.dead = Eigen::Vector2d(0.0, 1.0);
+  CHECK(std::abs(slip_of(points[0], jumps) - 3e-6) < 1e-18);
+}
+
 TEST_CASE("Nor is there any where the surface lies askew to the direction in which both bodies are held") {
   // Both are held along z. A surface that a step has tilted by 1e-5 has a tangent that is nearly z, and one that is
   // inclined by 1.
