@@ -6,6 +6,7 @@
 #include "commands/commands.hpp"
 #include "commands/functions/function_building.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/functions/operations.hpp"
 
 namespace comma::commands {
 
@@ -37,12 +38,39 @@ std::vector<std::string> names_or_own(const Keywords& test, const FunctionConcep
   return own;
 }
 
+std::string name_in_verdicts(const Keywords& test) {
+  return test.has("LEGENDE") ? test.text("LEGENDE") : test.concept_of("FONCTION")->name;
+}
+
+double mean_of(const Keywords& test, double from, double to) {
+  const auto& function = test.data<FunctionConcept>("FONCTION");
+  if (from >= to)
+    throw DiagnosticError("out-of-bounds", fmt::format("TEST_FONCTION: INTERVALLE goes from {:g} to {:g}", from, to),
+                          test.span_of("INTERVALLE"), "write the lower bound first");
+  if (const auto* table = function.table()) return solver::mean_between(*table, from, to);
+  if (dynamic_cast<const ConstantConcept*>(&function) != nullptr) return function.evaluate({});
+  throw DiagnosticError("wrong-type",
+                        fmt::format("TEST_FONCTION: {} is no table of one parameter, and has no mean over an interval",
+                                    test.concept_of("FONCTION")->name),
+                        test.span_of("FONCTION"),
+                        dynamic_cast<const SurfaceConcept*>(&function) != nullptr
+                            ? "take one of its functions by RECU_FONCTION(NAPPE=...)"
+                            : "tabulate a formula by CALC_FONC_INTERP");
+}
+
+void test_mean(const Keywords& test, Context& context) {
+  const auto bounds = test.reals("INTERVALLE");
+  const double value = mean_of(test, bounds[0], bounds[1]);
+  const std::string label = fmt::format("{} mean from {:g} to {:g}", name_in_verdicts(test), bounds[0], bounds[1]);
+  for (Verdict& verdict : judge(test, "TEST_FONCTION", label, value)) context.report(std::move(verdict));
+}
+
 void test_value(const Keywords& test, Context& context) {
   const auto& function = test.data<FunctionConcept>("FONCTION");
   const auto at = test.reals("VALE_PARA");
   const auto names = names_or_own(test, function, at.size(), context);
   const double value = evaluate_named(function, names, at, test.span_of("NOM_PARA"));
-  std::string label = test.has("LEGENDE") ? test.text("LEGENDE") : test.concept_of("FONCTION")->name;
+  std::string label = name_in_verdicts(test);
   for (std::size_t i = 0; i < at.size(); ++i) label += fmt::format("{} {}={:g}", i == 0 ? " at" : ",", names[i], at[i]);
   for (Verdict& verdict : judge(test, "TEST_FONCTION", label, value)) context.report(std::move(verdict));
 }
@@ -93,7 +121,12 @@ void test_attribute(const Keywords& test, Context& context) {
 }  // namespace
 
 Product test_fonction(const Call& call, Context& context) {
-  for (const Keywords& test : call.factors("VALEUR")) test_value(test, context);
+  for (const Keywords& test : call.factors("VALEUR")) {
+    if (test.given("INTERVALLE"))
+      test_mean(test, context);
+    else
+      test_value(test, context);
+  }
   for (const Keywords& test : call.factors("ATTRIBUT")) test_attribute(test, context);
   return nullptr;
 }

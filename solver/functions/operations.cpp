@@ -163,6 +163,18 @@ TabulatedFunction simpson_integral(const TabulatedFunction& function, double at_
   return result;
 }
 
+double mean_between(const TabulatedFunction& function, double from, double to) {
+  TabulatedFunction between{.x = {from}, .y = {function(from)}};
+  for (std::size_t i = 0; i < function.x.size(); ++i) {
+    if (function.x[i] <= from || function.x[i] >= to) continue;
+    between.x.push_back(function.x[i]);
+    between.y.push_back(function.y[i]);
+  }
+  between.x.push_back(to);
+  between.y.push_back(function(to));
+  return integral(between, 0.0).y.back() / (to - from);
+}
+
 TabulatedFunction derivative(const TabulatedFunction& function) {
   const std::size_t last = function.x.size() - 1;
   if (last == 0) throw Error("out-of-function", "a function of one point has no derivative");

@@ -48,6 +48,8 @@ TabulatedFunction integral(const TabulatedFunction& function, double at_first);
 /// By Simpson's rule, over the parabola through each point and the two before it; up to the second point by the
 /// trapezoidal rule, so that every other value counts from there.
 TabulatedFunction simpson_integral(const TabulatedFunction& function, double at_first);
+/// The mean value from one abscissa to a later one, by the trapezoidal rule through the points between them.
+double mean_between(const TabulatedFunction& function, double from, double to);
 /// The mean of the slopes on both sides, that of the one side at the ends. Throws Error `out-of-function` for a single
 /// point.
 TabulatedFunction derivative(const TabulatedFunction& function);

@@ -60,6 +60,14 @@ TEST_CASE("the trapezoidal rule integrates a polygon exactly", "[functions]") {
   CHECK(area.y == std::vector<double>{5.0, 9.0, 13.0});
 }
 
+TEST_CASE("the mean over an interval counts the points within it, and ends that lie between points", "[functions]") {
+  const TabulatedFunction hat{.x = {0.0, 1.0, 3.0}, .y = {0.0, 4.0, 0.0}};
+  CHECK(mean_between(hat, 0.0, 3.0) == exactly(2.0));
+  CHECK(mean_between(hat, 0.5, 2.0) == exactly(3.0));
+  CHECK(mean_between(hat, 1.5, 2.5) == exactly(2.0));
+  CHECK_THROWS_AS(mean_between(hat, 0.5, 3.5), Error);
+}
+
 TEST_CASE("Simpson's rule integrates a parabola exactly at every other of uneven points", "[functions]") {
   TabulatedFunction squares{.x = {0.0, 1.0, 1.5, 3.5, 4.0}, .y = {}};
   for (const double x : squares.x) squares.y.push_back(x * x);
