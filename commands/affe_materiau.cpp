@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "commands/commands.hpp"
 #include "commands/functions/function_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/field_algebra.hpp"
+#include "solver/materials/combination.hpp"
 
 namespace comma::commands {
 
@@ -154,22 +156,48 @@ solver::CommandVariable command_variable(const Assigned<Keywords>& assigned) {
   return variable;
 }
 
+// One kind of law may be given by numbers or by functions, and elasticity in several forms.
+std::string kind_of_law(const std::string& keyword) {
+  if (keyword.ends_with("_FO")) return kind_of_law(keyword.substr(0, keyword.size() - 3));
+  return keyword == "ELAS_ORTH" || keyword == "ELAS_ISTR" ? "ELAS" : keyword;
+}
+
+// Code_Aster refuses materials that give the same law.
+void check_different_laws(const Keywords& assignment) {
+  std::map<std::string, std::string> givers;
+  for (const ConceptPtr& material : assignment.concepts("MATER")) {
+    for (const std::string& law : interpreter::data_of<MaterialConcept>(material, "MATER").laws) {
+      const auto [giver, is_new] = givers.emplace(kind_of_law(law), material->name + " (" + law + ")");
+      if (is_new) continue;
+      throw DiagnosticError("contradictory-keywords",
+                            fmt::format("AFFE_MATERIAU: {} and {} ({}) give the same cells one kind of law",
+                                        giver->second, material->name, law),
+                            assignment.span_of("MATER"), "name one of them, or define a material without that law");
+    }
+  }
+}
+
+std::shared_ptr<const solver::Material> material_of(const Keywords& assignment) {
+  check_different_laws(assignment);
+  std::shared_ptr<const solver::Material> all;
+  for (const ConceptPtr& handle : assignment.concepts("MATER")) {
+    const auto& material = interpreter::data_of<MaterialConcept>(handle, "MATER").material;
+    all = all ? std::make_shared<const solver::Material>(solver::combined(*all, *material)) : material;
+  }
+  return all;
+}
+
 struct MaterialAssignments {
   std::size_t cell_count = 0;
-  std::vector<Assigned<ConceptPtr>> materials;
+  std::vector<Assigned<Keywords>> materials;
   std::vector<Assigned<Keywords>> variables;  ///< no cells: all
 };
 
 MaterialAssignments material_assignments(const Call& call, const solver::Mesh& mesh) {
   MaterialAssignments found;
   found.cell_count = static_cast<std::size_t>(mesh.cell_count());
-  for (const Keywords& assignment : call.factors("AFFE")) {
-    if (assignment.concepts("MATER").size() > 1) {
-      throw DiagnosticError("unsupported", "AFFE_MATERIAU: comma gives a cell one material",
-                            assignment.span_of("MATER"), "put all laws into one DEFI_MATERIAU");
-    }
-    found.materials.push_back({assignment.concepts("MATER").front(), selected_cells(assignment, mesh)});
-  }
+  for (const Keywords& assignment : call.factors("AFFE"))
+    found.materials.push_back({assignment, selected_cells(assignment, mesh)});
   for (const Keywords& assignment : call.factors("AFFE_VARC")) {
     if (assignment.text("NOM_VARC") == "GEOM") continue;
     found.variables.push_back(
@@ -180,7 +208,8 @@ MaterialAssignments material_assignments(const Call& call, const solver::Mesh& m
 
 std::vector<ConceptPtr> sources_of(const MaterialAssignments& assignments) {
   std::vector<ConceptPtr> sources;
-  for (const auto& [material, cells] : assignments.materials) sources.push_back(material);
+  for (const auto& [assignment, cells] : assignments.materials)
+    for (const ConceptPtr& material : assignment.concepts("MATER")) sources.push_back(material);
   for (const auto& [assignment, cells] : assignments.variables)
     sources.push_back(assignment.concept_of(assignment.has("CHAM_GD") ? "CHAM_GD" : "EVOL"));
   return sources;
@@ -189,10 +218,10 @@ std::vector<ConceptPtr> sources_of(const MaterialAssignments& assignments) {
 std::shared_ptr<const solver::MaterialField> material_field(const MaterialAssignments& assignments) {
   auto field = std::make_shared<solver::MaterialField>();
   field->by_cell.resize(assignments.cell_count);
-  for (const auto& [material, cells] : assignments.materials)
-    for (const int cell : cells)
-      field->by_cell[static_cast<std::size_t>(cell)] =
-          interpreter::data_of<MaterialConcept>(material, "MATER").material;
+  for (const auto& [assignment, cells] : assignments.materials) {
+    const auto material = material_of(assignment);
+    for (const int cell : cells) field->by_cell[static_cast<std::size_t>(cell)] = material;
+  }
   for (const Assigned<Keywords>& assigned : assignments.variables) {
     const Keywords& assignment = assigned.what;
     solver::CommandVariable variable = command_variable(assigned);

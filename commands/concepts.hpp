@@ -47,6 +47,7 @@ struct ModelConcept : ConceptData {
 
 struct MaterialConcept : ConceptData {
   std::shared_ptr<const solver::Material> material;
+  std::vector<std::string> laws;  ///< the factor keywords of DEFI_MATERIAU that gave it something
 };
 
 struct MaterialFieldConcept : ConceptData {

@@ -250,11 +250,18 @@ void add_hardening_springs(const Keywords& law, solver::Material& material) {
   }
 }
 
+std::vector<std::string> laws_given(const Call& call) {
+  std::vector<std::string> names;
+  for (const interpreter::Keyword& item : call.items)
+    if (item.given && !item.factors.empty()) names.push_back(item.name);
+  return names;
+}
+
 }  // namespace
 
 Product defi_materiau(const Call& call, Context&) {
-  if (std::ranges::none_of(call.items,
-                           [](const interpreter::Keyword& item) { return item.given && !item.factors.empty(); })) {
+  const std::vector<std::string> laws = laws_given(call);
+  if (laws.empty()) {
     throw DiagnosticError("missing-one-of", "DEFI_MATERIAU gives the material nothing", call.span,
                           "give it a law, such as ELAS=_F(E=..., NU=...)");
   }
@@ -274,6 +281,9 @@ Product defi_materiau(const Call& call, Context&) {
   if (call.has("DIS_ECRO_CINE")) add_hardening_springs(call.factor("DIS_ECRO_CINE"), *material);
   auto product = std::make_shared<MaterialConcept>();
   product->material = std::move(material);
+  if (call.has("MATER")) product->laws = call.data<MaterialConcept>("MATER").laws;
+  for (const std::string& law : laws)
+    if (std::ranges::find(product->laws, law) == product->laws.end()) product->laws.push_back(law);
   if (!call.reuse) return product;
   call.result->data = product;
   return nullptr;
