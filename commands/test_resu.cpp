@@ -268,6 +268,24 @@ void test_field(const Keywords& test, Context& context) {
   report(test, label, as_reference(test, field_value(test, data.field, *data.mesh, others)), context);
 }
 
+std::size_t count_of(const Keywords& test, const solver::Mesh& mesh) {
+  const std::string& kind = test.text("CARA");
+  if (kind == "NB_MAILLE") return mesh.cell_types.size();
+  if (kind == "NB_NOEUD") return mesh.nodes.size();
+  if (kind == "NB_GROUP_MA") return mesh.cell_groups.size();
+  if (kind == "NB_GROUP_NO") return mesh.node_groups.size();
+  if (kind == "NB_MA_GROUP_MA") return named_cell_groups(test, "NOM_GROUP_MA", mesh).front().size();
+  return named_node_groups(test, "NOM_GROUP_NO", mesh).front().size();
+}
+
+void test_mesh(const Keywords& test, Context& context) {
+  const auto& mesh = *test.data<MeshConcept>("MAILLAGE").mesh;
+  std::string label = test.concept_of("MAILLAGE")->name + " " + test.text("CARA");
+  for (const char* keyword : {"NOM_GROUP_MA", "NOM_GROUP_NO"})
+    if (test.given(keyword)) label += " " + test.text(keyword);
+  report(test, label, static_cast<std::int64_t>(count_of(test, mesh)), context);
+}
+
 }  // namespace
 
 Product test_resu(const Call& call, Context& context) {
@@ -275,6 +293,7 @@ Product test_resu(const Call& call, Context& context) {
   for (const char* kind : {"CHAM_NO", "CHAM_ELEM", "CARTE"}) {
     for (const Keywords& test : call.factors(kind)) test_field(test, context);
   }
+  for (const Keywords& test : call.factors("MAILLAGE")) test_mesh(test, context);
   return nullptr;
 }
 
