@@ -82,17 +82,44 @@ double interpolated(const NodeValues& values, PointWeights& weights, int cell, i
   return sum;
 }
 
+double mean_at_nodes(const NodalField& field, std::span<const int> nodes, int component) {
+  double sum = 0.0;
+  for (const int node : nodes) sum += field.at(node, component);
+  return sum / static_cast<double>(nodes.size());
+}
+
+double mean_over_points(const ElementField& field, int cell, int component) {
+  const int points = field.points(cell);
+  if (points == 0) return absent;
+  double sum = 0.0;
+  for (int point = 0; point < points; ++point) sum += field.at(cell, point, component);
+  return sum / points;
+}
+
+ElementField mean_over_cells(const Model& model, const Field& field, bool skin) {
+  const Mesh& mesh = *model.mesh;
+  const auto* nodal = std::get_if<NodalField>(&field);
+  if (nodal == nullptr) require_one_value_a_point(mesh, std::get<ElementField>(field));
+  ElementField result = empty_element_field(model, quantity_of(field), Support::cell, components_of(field), skin);
+  const auto width = static_cast<int>(result.components.size());
+  auto slot = result.values.begin();
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    if (result.points(cell) == 0) continue;
+    for (int component = 0; component < width; ++component)
+      *slot++ = nodal != nullptr ? mean_at_nodes(*nodal, mesh.cell(cell), component)
+                                 : mean_over_points(std::get<ElementField>(field), cell, component);
+  }
+  return result;
+}
+
 }  // namespace
 
 ElementField brought_to(const Model& model, const Field& field, Support support, bool skin) {
+  if (support == Support::cell && !is_one_a_cell(field)) return mean_over_cells(model, field, skin);
   if (is_at_points(field) && support != Support::gauss_point) {
     return brought_to(model, to_element_nodes(model, std::get<ElementField>(field)), support, skin);
   }
   if (is_at_points(field)) return std::get<ElementField>(field);
-  if (support == Support::cell && !is_one_a_cell(field)) {
-    throw Error("unsupported", "comma does not bring a field of several values a cell to one value a cell",
-                "bring it to nodes, nodes of cells or Gauss points");
-  }
   const Mesh& mesh = *model.mesh;
   const NodeValues values(mesh, field);
   PointWeights weights(model);

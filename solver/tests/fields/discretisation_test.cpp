@@ -71,9 +71,25 @@ TEST_CASE("one value a cell holds all over it, and nodes between cells have the 
   CHECK(nodal.at(2, 0) == 30.0);
 }
 
+TEST_CASE("one value a cell is the mean of its nodes or points", "[fields]") {
+  const Model model = two_quadrangles();
+  const NodalField at_nodes = linear_field(*model.mesh);
+  const ElementField of_nodes = brought_to(model, at_nodes, Support::cell, true);
+  CHECK(of_nodes.at(0, 0, 0) == exactly(linear(2.2 / 4.0, 0.5)));
+  CHECK(of_nodes.at(2, 0, 0) == exactly(linear(0.0, 0.5)));
+  const ElementField corners = brought_to(model, at_nodes, Support::element_node, false);
+  CHECK(brought_to(model, corners, Support::cell, false).at(1, 0, 0) == exactly(linear(6.2 / 4.0, 0.5)));
+  // Points of a quadrangle lie evenly about its middle.
+  const ElementField points = brought_to(model, at_nodes, Support::gauss_point, false);
+  CHECK(brought_to(model, points, Support::cell, false).at(0, 0, 0) == exactly(linear(2.2 / 4.0, 0.5)));
+  NodalField partial = at_nodes;
+  partial.values[0] = absent;
+  CHECK(std::isnan(brought_to(model, partial, Support::cell, false).at(0, 0, 0)));
+  CHECK(brought_to(model, partial, Support::cell, false).at(1, 0, 0) == exactly(linear(6.2 / 4.0, 0.5)));
+}
+
 TEST_CASE("what cannot be brought elsewhere says so", "[fields]") {
   const Model model = two_quadrangles();
-  CHECK_THROWS_AS(brought_to(model, linear_field(*model.mesh), Support::cell, false), Error);
   const ElementField at_points = brought_to(model, linear_field(*model.mesh), Support::gauss_point, false);
   CHECK_THROWS_WITH(brought_to_nodes(*model.mesh, nullptr, at_points), Catch::Contains("model"));
 }
