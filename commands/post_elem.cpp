@@ -10,6 +10,7 @@
 #include "commands/fields/field_distribution.hpp"
 #include "commands/fields/field_reading.hpp"
 #include "commands/fields/field_types.hpp"
+#include "commands/model/angles.hpp"
 #include "commands/model/parts_of_model.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -20,6 +21,7 @@
 #include "solver/fields/mass_inertia.hpp"
 #include "solver/fields/statistics.hpp"
 #include "solver/loads/end_effect.hpp"
+#include "solver/mesh/axes.hpp"
 #include "solver/mesh/transform.hpp"
 
 namespace comma::commands {
@@ -128,6 +130,12 @@ void add_inertia(Row& row, const Eigen::Matrix3d& inertia, const char* ending) {
     row.emplace_back(std::string(name) + ending, inertia(place.first, place.second));
 }
 
+void add_principal_inertia(Row& row, const solver::PrincipalInertia& principal) {
+  for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("I{}_PRIN_G", "XYZ"[i]), principal.moments[i]);
+  const Eigen::Vector3d angles = solver::nautical_angles(principal.axes) / degree;
+  row.insert(row.end(), {{"ALPHA", angles[0]}, {"BETA", angles[1]}, {"GAMMA", angles[2]}});
+}
+
 Eigen::Vector3d inertia_origin(const std::vector<double>& coordinates) {
   Eigen::Vector3d point = Eigen::Vector3d::Zero();
   std::ranges::copy(coordinates, point.data());
@@ -176,8 +184,7 @@ void list_masses(Table& table, const Call& call) {
       row.emplace_back("MASSE", found.mass);
       for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("CDG_{}", "XYZ"[i]), found.centre[i]);
       add_inertia(row, found.inertia, "_G");
-      const Eigen::Vector3d moments = solver::principal_moments(found.inertia);
-      for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("I{}_PRIN_G", "XYZ"[i]), moments[i]);
+      add_principal_inertia(row, solver::principal_inertia(found.inertia));
       if (occurrence.has("ORIG_INER"))
         add_inertia(row, solver::inertia_about(found, inertia_origin(occurrence.reals("ORIG_INER"))), "_P");
       table.add_row(row);

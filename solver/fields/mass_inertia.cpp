@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "solver/elements/quadrature.hpp"
 #include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/axes.hpp"
 
 namespace comma::solver {
 
@@ -184,10 +186,49 @@ class Moments {
   Eigen::Matrix3d second_ = Eigen::Matrix3d::Zero();
 };
 
+// Moments add up from squares of places: nearer to each other than this they are equal.
+constexpr double same_moments = 1e-9;
+
+Eigen::Vector3d pointing(const Eigen::Vector3d& axis) {
+  constexpr double zero = 1e-9;
+  for (const double component : axis)
+    if (std::abs(component) > zero) return component > 0.0 ? axis : Eigen::Vector3d(-axis);
+  return axis;
+}
+
+// The second and the third axis have two senses: they take that in which the roll is between -90 degrees and 90.
+Eigen::Matrix3d least_rolled(const Eigen::Vector3d& first, const Eigen::Vector3d& second) {
+  Eigen::Matrix3d axes;
+  axes << first.transpose(), second.transpose(), first.cross(second).transpose();
+  constexpr double quarter = std::numbers::pi / 2, rounding = 1e-9;
+  const double roll = nautical_angles(axes)[2];
+  if (roll > quarter + rounding || roll < -quarter + rounding) axes.bottomRows<2>() *= -1.0;
+  return axes;
+}
+
+// Of the axes of the mesh the projection of the one that lies best across another axis.
+Eigen::Vector3d first_axis_across(const Eigen::Vector3d& normal) {
+  int best = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(normal[i]) < std::abs(normal[best]) - same_moments) best = i;
+  const Eigen::Vector3d axis = Eigen::Vector3d::Unit(best);
+  return (axis - axis.dot(normal) * normal).normalized();
+}
+
 }  // namespace
 
-Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+PrincipalInertia principal_inertia(const Eigen::Matrix3d& inertia) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(inertia);
+  const Eigen::Vector3d moments = solved.eigenvalues();
+  const double tolerance = same_moments * std::abs(moments[2]);
+  const bool low = moments[1] - moments[0] <= tolerance, high = moments[2] - moments[1] <= tolerance;
+  if (low && high) return {moments, Eigen::Matrix3d::Identity()};
+  const Eigen::Matrix3d found = solved.eigenvectors();
+  const Eigen::Vector3d first = pointing(low ? first_axis_across(found.col(2)) : Eigen::Vector3d(found.col(0)));
+  const Eigen::Vector3d second = low    ? Eigen::Vector3d(found.col(2)).cross(first)
+                                 : high ? first_axis_across(first)
+                                        : Eigen::Vector3d(found.col(1));
+  return {moments, least_rolled(first, second)};
 }
 
 Eigen::Matrix3d inertia_about(const MassInertia& body, const Eigen::Vector3d& point) {

@@ -16,8 +16,14 @@ struct MassInertia {
   Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
 };
 
-/// The moments about three axes that diagonalise an inertia tensor, rising.
-Eigen::Vector3d principal_moments(const Eigen::Matrix3d& inertia);
+/// The moments about three axes that diagonalise an inertia tensor, rising, and these axes (rows), right-handed. The
+/// first points to where its first component is positive, the second to where the roll is no more than 90 degrees. Of
+/// axes about which moments are equal the one counts first onto which an axis of the mesh projects best.
+struct PrincipalInertia {
+  Eigen::Vector3d moments;
+  Eigen::Matrix3d axes;
+};
+PrincipalInertia principal_inertia(const Eigen::Matrix3d& inertia);
 
 /// The inertia tensor about another point (Steiner).
 Eigen::Matrix3d inertia_about(const MassInertia& body, const Eigen::Vector3d& point);

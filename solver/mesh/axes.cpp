@@ -1,5 +1,7 @@
 #include "solver/mesh/axes.hpp"
 
+#include <cmath>
+
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -11,6 +13,18 @@ Eigen::Matrix3d nautical_axes(double yaw, double pitch, double roll) {
       (AngleAxisd(yaw, Vector3d::UnitZ()) * AngleAxisd(pitch, Vector3d::UnitY()) * AngleAxisd(roll, Vector3d::UnitX()))
           .toRotationMatrix();
   return turn.transpose();
+}
+
+Eigen::Vector3d nautical_angles(const Eigen::Matrix3d& axes) {
+  // Yaw and roll of an axis this near that of Z are one turn, and rounding would part it.
+  constexpr double upright = 1e-9;
+  const Eigen::Vector3d along = axes.row(0);
+  const double level = std::hypot(along[0], along[1]);
+  const double yaw = level < upright ? 0.0 : std::atan2(along[1], along[0]);
+  const double pitch = std::atan2(0.0 - along[2], level);
+  const Eigen::Matrix3d unrolled = nautical_axes(yaw, pitch, 0.0);
+  const double roll = std::atan2(axes.row(1).dot(unrolled.row(2)), axes.row(1).dot(unrolled.row(1)));
+  return {yaw, pitch, roll};
 }
 
 Eigen::Matrix3d euler_axes(double precession, double nutation, double rotation) {

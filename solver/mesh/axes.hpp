@@ -11,6 +11,10 @@ namespace comma::solver {
 /// about the new X (U4.42.01, ANGL_REP, ANGL_NAUT). The first goes down for a positive pitch.
 Eigen::Matrix3d nautical_axes(double yaw, double pitch, double roll);
 
+/// Yaw, pitch and roll of right-handed axes (rows): the inverse of nautical_axes(), with a pitch from -pi/2 to pi/2 and
+/// no yaw where the first axis is that of Z.
+Eigen::Vector3d nautical_angles(const Eigen::Matrix3d& axes);
+
 /// Axes (rows) of Euler's angles in radians: turned about Z, then about the new X, then about the new Z (U4.42.01,
 /// ANGL_EULER).
 Eigen::Matrix3d euler_axes(double precession, double nutation, double rotation);

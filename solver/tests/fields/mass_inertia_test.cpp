@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/fields/mass_inertia.hpp"
+#include "solver/mesh/axes.hpp"
 #include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/tests/exactly.hpp"
 
@@ -86,7 +87,7 @@ TEST_CASE("inertia about a corner, and principal moments of a turned brick", "[f
   CHECK(corner(0, 0) == exactly(480 * (16 + 36) / 3.0));
   CHECK(corner(0, 1) == exactly(-480 * 2 * 4 / 4.0));
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-  const Eigen::Vector3d moments = principal_moments(turn * brick_mass.inertia * turn.transpose());
+  const Eigen::Vector3d moments = principal_inertia(turn * brick_mass.inertia * turn.transpose()).moments;
   CHECK(moments[0] == exactly(480 * (4 + 16) / 12.0));
   CHECK(moments[2] == exactly(480 * (16 + 36) / 12.0));
 }
@@ -142,4 +143,24 @@ TEST_CASE(
     CHECK((result.centre - centres[k]).norm() < 1e-12);
     CHECK((result.inertia - about_centres[k]).norm() < 1e-10);
   }
+}
+
+TEST_CASE("principal axes are those that an inertia was turned by", "[fields]") {
+  const Eigen::Vector3d moments(1.0, 2.0, 4.0), angles(0.4, -0.7, 0.3);
+  const Eigen::Matrix3d axes = nautical_axes(angles[0], angles[1], angles[2]);
+  const PrincipalInertia found = principal_inertia(axes.transpose() * moments.asDiagonal() * axes);
+  CHECK((found.moments - moments).norm() < 1e-14);
+  CHECK((nautical_angles(found.axes) - angles).norm() < 1e-14);
+}
+
+TEST_CASE("equal moments have axes along those of the mesh", "[fields]") {
+  CHECK(principal_inertia(3.0 * Eigen::Matrix3d::Identity()).axes == Eigen::Matrix3d::Identity());
+  const Eigen::Matrix3d upright = Eigen::Vector3d(5.0, 5.0, 1.0).asDiagonal();  // a rod along Z
+  const Eigen::Vector3d angles = nautical_angles(principal_inertia(upright).axes);
+  CHECK((angles - std::numbers::pi / 2 * Eigen::Vector3d(0, -1, 1)).norm() < 1e-14);
+  const Eigen::Vector3d normal = Eigen::Vector3d(0.0, 0.6, 0.8);  // a square plate across it, but for rounding
+  Eigen::Matrix3d square = Eigen::Matrix3d::Identity() + normal * normal.transpose();
+  square(0, 1) = square(1, 0) = 1e-13;
+  const Eigen::Matrix3d axes = principal_inertia(square).axes;
+  CHECK((axes - nautical_axes(0.0, 0.0, std::atan2(-0.6, 0.8))).norm() < 1e-9);
 }
