@@ -50,6 +50,16 @@ ResultConcept energy_source(const Call& call) {
   return source;
 }
 
+// What the energies of beams and plates among the cells are made of.
+void add_parts(Row& row, const solver::ElementField& energies, std::span<const int> cells) {
+  for (int component = 1; component < static_cast<int>(energies.components.size()); ++component) {
+    const bool is_known = std::ranges::any_of(
+        cells, [&](int cell) { return energies.points(cell) > 0 && !std::isnan(energies.at(cell, 0, component)); });
+    row.emplace_back(energies.components[static_cast<std::size_t>(component)],
+                     is_known ? Cell(solver::sum_over_cells(energies, component, cells)) : Cell());
+  }
+}
+
 // Totals over parts, and what percentage of the whole model's energy each has.
 void list_energies(Table& table, const Call& call, interpreter::Diagnostics& diagnostics, const char* keyword,
                    const char* field) {
@@ -67,6 +77,7 @@ void list_energies(Table& table, const Call& call, interpreter::Diagnostics& dia
         const Row place = place_columns(part);
         row.insert(row.end(), place.begin(), place.end());
         row.insert(row.end(), {{"TOTALE", total}, {"POUR_CENT", whole != 0.0 ? 100.0 * total / whole : 0.0}});
+        add_parts(row, energies, part.cells);
         table.add_row(row);
       }
     }

@@ -36,7 +36,7 @@ const std::map<std::string, Names, std::less<>>& components_by_quantity() {
                 "S4Z",   "NXX",  "NYY",  "NXY",  "MXX",    "MYY",    "MXY",    "QX",      "QY"}},
       {"EPSI", {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ", "INVA_2", "PRIN_1", "PRIN_2", "PRIN_3", "INVA_2SG",
                 "GAXY", "GAXZ", "GAT",  "KY",   "KZ",   "EXX",  "EYY",    "EXY",    "KXX",    "KYY",    "KXY"}},
-      {"ENER", {"TOTALE"}},
+      {"ENER", {"TOTALE", "TRAC_COM", "TORSION", "FLEX_Y", "FLEX_Z", "MEMBRANE", "FLEXION", "CISAILLE"}},
       {"DERA", {"DCHA_V", "DCHA_T", "IND_DCHA", "VAL_DCHA", "RADI_V", "ERR_RADI"}},
       {"CACOQU", {"EP", "ALPHA", "BETA", "CTOR", "EXCENT", "KAPPA"}},
       {"NBSP", {"COQ_NCOU"}},

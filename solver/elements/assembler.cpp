@@ -493,15 +493,26 @@ ElementField Assembler::elastic_energies(const Eigen::VectorXd& u) const {
   field.starts.assign(static_cast<std::size_t>(model_.mesh->cell_count()) + 1, 0);
   for (const auto& block : blocks_->list) {
     for (const int cell : block->cells()) field.starts[cell + 1] = 1;
+    for (const std::string_view name : block->energy_names())
+      if (field.component(name) < 0) field.components.emplace_back(name);
   }
   for (std::size_t cell = 1; cell < field.starts.size(); ++cell) field.starts[cell] += field.starts[cell - 1];
-  field.values.assign(static_cast<std::size_t>(field.starts.back()), absent);
+  const std::size_t width = field.components.size();
+  field.values.assign(static_cast<std::size_t>(field.starts.back()) * width, absent);
   std::vector<double> values;
   for (const auto& block : blocks_->list) {
     const auto cells = block->cells();
+    const auto slot = [&](std::size_t i) { return static_cast<std::size_t>(field.starts[cells[i]]) * width; };
     values.resize(cells.size());
     block->energies(u, state_, values);
-    for (std::size_t i = 0; i < cells.size(); ++i) field.values[field.starts[cells[i]]] = values[i];
+    for (std::size_t i = 0; i < cells.size(); ++i) field.values[slot(i)] = values[i];
+    const auto names = block->energy_names();
+    values.resize(cells.size() * names.size());
+    block->energy_parts(u, state_, values);
+    for (std::size_t part = 0; part < names.size(); ++part) {
+      const auto column = static_cast<std::size_t>(field.component(names[part]));
+      for (std::size_t i = 0; i < cells.size(); ++i) field.values[slot(i) + column] = values[i * names.size() + part];
+    }
   }
   return field;
 }

@@ -152,8 +152,9 @@ class Assembler {
   ElementField plate_forces(const Eigen::VectorXd& u, PlatePlaces places, std::span<const AppliedLoad> loads,
                             double time) const;
 
-  /// Elastic energy of each element without memory (EPOT_ELEM: TOTALE), that of (strain - strain of the command
-  /// variables - what impose_strains() has given). Axisymmetric bodies: per radian.
+  /// Elastic energy of each element without memory (EPOT_ELEM: TOTALE, and its parts in beams and plates,
+  /// energy_parts.hpp), that of (strain - strain of the command variables - what impose_strains() has given).
+  /// Axisymmetric bodies: per radian.
   ElementField elastic_energies(const Eigen::VectorXd& u) const;
 
  private:

@@ -102,6 +102,9 @@ class ElementBlock {
                       std::span<double>) const {}
   /// Writes the elastic energy of each element (one value a cell); absent where the material has a memory.
   virtual void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const = 0;
+  /// What it is made of: the names of parts, none where it is known as a whole alone, and their values (cells x parts).
+  virtual std::span<const std::string_view> energy_names() const { return {}; }
+  virtual void energy_parts(const Eigen::VectorXd&, const VariableState&, std::span<double>) const {}
   virtual bool is_linear() const = 0;
   /// Whether add_elastic_stiffness() is the same for every u.
   virtual bool is_elastically_linear() const { return is_linear(); }

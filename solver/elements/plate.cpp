@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "solver/elements/element_block.hpp"
+#include "solver/elements/energy_parts.hpp"
 #include "solver/elements/plate_axes.hpp"
 #include "solver/elements/plate_kinematics.hpp"
 #include "solver/elements/quadrature.hpp"
@@ -179,6 +180,32 @@ class PlateBlock final : public ElementBlock {
     }
   }
 
+  std::span<const std::string_view> energy_names() const override { return plate_energy_names; }
+
+  /// About the middle of the plate; what holds the rotation about the normal is in none.
+  void energy_parts(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const Plate<Nodes>& plate = plates_[element];
+      const PlateRigidity rigidity = this->rigidity(element, state);
+      const PlateKinematics<Nodes> kinematics(plate.corners, rigidity);
+      const Vector own = own_displacements(u, element);
+      const double known = inelastic_strain(element, state);
+      Eigen::Vector3d parts = Eigen::Vector3d::Zero();
+      for (const QuadraturePoint& point : points_) {
+        const PlateRows<Nodes> rows = kinematics.at(point.at);
+        const Eigen::Vector3d curvature = rows.curvature * own;
+        const Eigen::Vector3d strain =
+            rows.membrane * own + plate.section->offset * curvature - Eigen::Vector3d(known, known, 0.0);
+        const Eigen::Vector2d shear = rows.shear_force * own;
+        parts += 0.5 * point.weight * rows.measure *
+                 Eigen::Vector3d(strain.dot(plane_law(rigidity.membrane, rigidity.poisson) * strain),
+                                 curvature.dot(plane_law(rigidity.bending, rigidity.poisson) * curvature),
+                                 rigidity.shear_compliance * shear.squaredNorm());
+      }
+      std::ranges::copy(parts, out.begin() + 3 * element);
+    }
+  }
+
   bool is_linear() const override { return true; }
   bool is_constant() const override { return constant_; }
 
@@ -208,15 +235,9 @@ class PlateBlock final : public ElementBlock {
   /// axes.
   void forces_at(std::span<const ReferencePoint> places, const Eigen::VectorXd& u, const VariableState& state,
                  std::span<double> out) const {
-    std::array<int, size> dofs;
     double* target = out.data();
     for (int element = 0; element < map_.element_count(); ++element) {
-      map_.dofs(element, dofs.data());
-      const auto moved = relative(u, dofs);
-      Vector own;
-      for (int i = 0; i < size; ++i) own[i] = static_cast<double>(moved[i]);
-      for (int i = 0; i < size; i += 3)
-        own.template segment<3>(i) = (plates_[element].axes * own.template segment<3>(i)).eval();
+      const Vector own = own_displacements(u, element);
       const PlateRigidity rigidity = this->rigidity(element, state);
       const Eigen::Vector3d undone = membrane_forces(rigidity, inelastic_strain(element, state));
       const PlateKinematics<Nodes> kinematics(plates_[element].corners, rigidity);
@@ -357,6 +378,18 @@ class PlateBlock final : public ElementBlock {
       if (i % 6 < 3) moved[i] -= u[dofs[size - 6 + i % 6]];
     }
     return moved;
+  }
+
+  /// The same in the plate's own axes.
+  Vector own_displacements(const Eigen::VectorXd& u, int element) const {
+    std::array<int, size> dofs;
+    map_.dofs(element, dofs.data());
+    const auto moved = relative(u, dofs);
+    Vector own;
+    for (int i = 0; i < size; ++i) own[i] = static_cast<double>(moved[i]);
+    for (int i = 0; i < size; i += 3)
+      own.template segment<3>(i) = (plates_[element].axes * own.template segment<3>(i)).eval();
+    return own;
   }
 
   Matrix matrix(const Plate<Nodes>& plate, const MaterialPoint& at) const {

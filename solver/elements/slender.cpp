@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "solver/elements/beam_stiffness.hpp"
+#include "solver/elements/energy_parts.hpp"
 #include "solver/elements/geometric_stiffness.hpp"
 #include "solver/elements/slender.hpp"
 #include "solver/elements/translation.hpp"
@@ -226,7 +227,37 @@ class SlenderBlock final : public ElementBlock {
       const double length = members_[element].segment.length;
       out[element] = 0.5 * (work - expansion.force * (elongation - expansion.strain * length));
       if (imposed_ != nullptr && imposed_->acts_on(cells_[element]))
-        out[element] -= work_on_imposed(*imposed_, element, mean_forces(element, force), state);
+        out[element] -= works_on_imposed(*imposed_, element, mean_forces(element, force), state).sum();
+    }
+  }
+
+  std::span<const std::string_view> energy_names() const override {
+    if constexpr (is_beam) return beam_energy_names;
+    return {};
+  }
+
+  /// What command variables and initial strains change goes with the parts that they strain: see energies().
+  void energy_parts(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    if constexpr (is_beam) {
+      std::array<int, size> dofs;
+      for (int element = 0; element < map_.element_count(); ++element) {
+        map_.dofs(element, dofs.data());
+        const auto force = end_forces(element, u, dofs, state);
+        Eigen::Matrix<double, size, 1> moved, ends;
+        for (int i = 0; i < size; ++i) {
+          moved[i] = i % 6 < 3 ? u[dofs[i]] - u[dofs[i % 6]] : u[dofs[i]];
+          ends[i] = static_cast<double>(force[i]);
+        }
+        Eigen::Vector4d parts = beam_energy_parts(*members_[element].section, axes(element), moved, ends);
+        const Expansion expansion = expansion_of(element, state);
+        const double elongation = axes(element).row(0).dot(moved.template segment<3>(6));
+        parts[0] -= 0.5 * expansion.force * (elongation - expansion.strain * members_[element].segment.length);
+        if (imposed_ != nullptr && imposed_->acts_on(cells_[element])) {
+          const Eigen::Vector3d work = works_on_imposed(*imposed_, element, mean_forces(element, force), state);
+          parts -= Eigen::Vector4d(work[0], 0.0, work[1], work[2]);
+        }
+        std::ranges::copy(parts, out.begin() + 4 * element);
+      }
     }
   }
 
@@ -298,12 +329,12 @@ class SlenderBlock final : public ElementBlock {
     for (int i = 3; i < Components; ++i) moment[i - 3] = 0.5 * static_cast<double>(force[Components + i] - force[i]);
     return {axes(element).row(0).dot(pull), axes(element).row(1).dot(moment), axes(element).row(2).dot(moment)};
   }
-  /// By what initial strains lessen the elastic energy of an element with these forces: 1/2 r e^2 is left of them
-  /// alone.
-  double work_on_imposed(const ImposedStrains& imposed, int element, const Eigen::Vector3d& forces,
-                         const VariableState& state) const {
+  /// By what initial strains lessen the elastic energy of an element with these forces, by N, MFY and MFZ: 1/2 r e^2 is
+  /// left of them alone.
+  Eigen::Vector3d works_on_imposed(const ImposedStrains& imposed, int element, const Eigen::Vector3d& forces,
+                                   const VariableState& state) const {
     return members_[element].segment.length *
-           imposed_strain(imposed, element).dot(forces - 0.5 * imposed_resultants(imposed, element, state));
+           imposed_strain(imposed, element).cwiseProduct(forces - 0.5 * imposed_resultants(imposed, element, state));
   }
 
   /// The axial strain of the command variables, and the compression that holding it back takes.

@@ -154,8 +154,9 @@ Field FieldComputation::total_energy_of_cells(std::size_t step) {
   }
   if (!others.empty()) {
     require_elastic_work(others, step);
-    energies =
-        side_by_side(energies, on_cells(assembler_.elastic_energies(to_dofs(displacement(step), dofs_)), others));
+    constexpr std::array whole = {0};
+    const Field elastic = with_components(assembler_.elastic_energies(to_dofs(displacement(step), dofs_)), whole);
+    energies = side_by_side(energies, on_cells(std::get<ElementField>(elastic), others));
   }
   return bars.empty() ? energies : side_by_side(energies, work_of_bars(bars, step));
 }

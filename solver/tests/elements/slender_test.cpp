@@ -118,6 +118,35 @@ TEST_CASE("a roll of 90 degrees swaps the two bending planes", "[elements]") {
   CHECK((a - b).cwiseAbs().maxCoeff() < 1e-14 * a.cwiseAbs().maxCoeff());
 }
 
+TEST_CASE("the parts of a beam's energy add up to the whole, each by the force that works for it", "[elements]") {
+  BeamSection channel = section;
+  channel.centre_y = 0.02;
+  channel.centre_z = -0.03;
+  const double length = 2.0, force = 300.0, twist = 50.0;
+  const Body body = chain({1, 2, 2}, length, 1, Formulation::timoshenko_beam, channel);
+  const Eigen::Matrix3d axes = own_axes(*body.model.mesh, 0, 0.0);
+  const auto parts_under = [&](const Eigen::Vector3d& own_force, const Eigen::Vector3d& own_moment) {
+    Eigen::VectorXd tip(6);
+    tip << axes.transpose() * own_force, axes.transpose() * own_moment;
+    const ElementField energies = body.assembler->elastic_energies(clamped(body, tip));
+    CHECK(energies.components == std::vector<std::string>{"TOTALE", "TRAC_COM", "TORSION", "FLEX_Y", "FLEX_Z"});
+    Eigen::VectorXd values = Eigen::Map<const Eigen::VectorXd>(energies.values.data(), 5);
+    CHECK(values.tail(4).sum() == exactly(values[0]));
+    return values;
+  };
+  const Eigen::VectorXd twisted = parts_under({0, 0, 0}, {twist, 0, 0});
+  CHECK(twisted[2] == Approx(twist * twist * length / (2 * shear_modulus * channel.torsion)).epsilon(1e-11));
+  CHECK(twisted[2] == exactly(twisted[0]));
+  // A force through the centroid twists it as well, by its lever about the centre of torsion.
+  const double lever = channel.centre_z * force;
+  const Eigen::VectorXd bent = parts_under({0, force, 0}, {0, 0, 0});
+  CHECK(bent[2] == Approx(lever * lever * length / (2 * shear_modulus * channel.torsion)).epsilon(1e-11));
+  const double own = std::pow(length, 3) / (6 * young * channel.inertia_z) +
+                     channel.shear_y * length / (2 * shear_modulus * channel.area);
+  CHECK(bent[4] == Approx(force * force * own).epsilon(1e-11));
+  CHECK(std::abs(bent[1]) + std::abs(bent[3]) < 1e-11 * bent[0]);
+}
+
 TEST_CASE("a bar without a cross-section is named", "[elements]") {
   CHECK_THROWS_WITH(chain({1, 0, 0}, 1.0, 1, Formulation::bar, {}), Catch::Contains("M1") && Catch::Contains("area"));
 }
