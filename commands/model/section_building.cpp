@@ -185,14 +185,12 @@ BeamSection section_of(const Keywords& assignment, bool bends) {
 
 // Shear deforms Timoshenko's beams: without shear factors they would silently be Euler's.
 void check_shear(const Keywords& assignment, const BeamSection& section) {
-  if (assignment.text("SECTION") == "GENERALE") {
-    const Characteristics given(assignment);
-    return section.end ? given.require({"AY1", "AZ1", "AY2", "AZ2"}) : given.require({"AY", "AZ"});
-  }
-  if (section.shear_y > 0.0) return;
-  throw DiagnosticError("unsupported",
-                        "a hollow rectangle has no shear factors that comma knows, and POU_D_T needs them",
-                        assignment.span, "give the section as SECTION=\"GENERALE\" with AY and AZ, or use POU_D_E");
+  if (assignment.text("SECTION") != "GENERALE") return;
+  const Characteristics given(assignment);
+  if (section.end)
+    given.require({"AY1", "AZ1", "AY2", "AZ2"});
+  else
+    given.require({"AY", "AZ"});
 }
 
 // The cells named that carry an element of the kind; at least one must.

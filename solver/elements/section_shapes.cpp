@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/shear_coefficient.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -72,11 +73,13 @@ BeamSection rectangular_section(const Rectangle& r) {
   section.shape = SectionShape::rectangle;
   section.reach_y = r.height_y / 2.0;
   section.reach_z = r.height_z / 2.0;
-  section.shear_y = section.shear_z = solid ? 1.2 : 0.0;
+  section.shear_y = section.shear_z = 1.2;
   if (solid) {
     add_solid_torsion(section, std::max(section.reach_y, section.reach_z), std::min(section.reach_y, section.reach_z));
   } else {
     add_hollow_torsion(section, r);
+    section.shear_y = shear_coefficient_along_z({section.reach_z, section.reach_y, inner_z / 2.0, inner_y / 2.0});
+    section.shear_z = shear_coefficient_along_z({section.reach_y, section.reach_z, inner_y / 2.0, inner_z / 2.0});
   }
   return section;
 }

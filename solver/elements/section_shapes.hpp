@@ -14,9 +14,8 @@ struct Rectangle {
 };
 
 /// Torsion of a solid rectangle by the approximation of Roark (Formulas for Stress and Strain, table 20, within 0.5 %);
-/// of a hollow one by Bredt for thin walls. Shear: 6/5 for a solid one; a hollow one has no shear factors (0: rigid in
-/// shear), as no formula for it is published that holds for all wall thicknesses. Throws Error `invalid-section` unless
-/// lengths are positive and the walls leave a hole.
+/// of a hollow one by Bredt for thin walls. Shear: 6/5 for a solid one, shear_coefficient_along_z() for a hollow one.
+/// Throws Error `invalid-section` unless lengths are positive and the walls leave a hole.
 BeamSection rectangular_section(const Rectangle& rectangle);
 
 /// A disc or, with a wall thinner than the radius, a tube. Shear factors by Cowper (The shear coefficient in

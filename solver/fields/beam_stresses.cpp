@@ -98,10 +98,8 @@ ElementField force_stresses(const FieldInput& input, const ElementField& forces)
                     [&](int cell, const BeamSection& section, const SectionForces& f, double* target) {
                       target[0] = f.n / section.area;
                       if (!is_beam(input.model.formulations[cell])) return;
-                      // Nobody knows the shear stresses of a hollow rectangle, which has no shear factors.
-                      const bool knows_shear = section.shape != SectionShape::rectangle || section.shear_y > 0.0;
-                      target[1] = knows_shear ? f.vy * section.shear_y / section.area : absent;
-                      target[2] = knows_shear ? f.vz * section.shear_z / section.area : absent;
+                      target[1] = f.vy * section.shear_y / section.area;
+                      target[2] = f.vz * section.shear_z / section.area;
                       target[3] = f.mt * section.torsion_reach / section.torsion;
                       target[4] = f.mfy * section.reach_z / section.inertia_y;
                       target[5] = -f.mfz * section.reach_y / section.inertia_z;

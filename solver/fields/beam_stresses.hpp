@@ -13,7 +13,6 @@ namespace comma::solver {
 
 /// SIPO_ELNO, what each force adds to the stress at the outermost fibre: SN = N / A, SVY = VY a_y / A, SVZ = VZ a_z / A
 /// with the shear coefficients a = A / A_reduced, SMT = MT R_T / J, SMFY = MFY R_Z / I_Y, SMFZ = -MFZ R_Y / I_Z.
-/// A hollow rectangle, which has no shear coefficients, has no SVY and SVZ.
 ElementField force_stresses(const FieldInput& input, const ElementField& forces);
 
 /// SIPM_ELNO, the smallest and largest axial stress of the section: SIXXMIN, SIXXMAX. On the corners of a rectangle, on
