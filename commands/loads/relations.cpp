@@ -324,6 +324,15 @@ Relations weighted_by_field(const Keywords& keywords, const LoadedModel& target,
   return {std::move(relation)};
 }
 
+// Rotations of shells are neither turned nor along a normal.
+void require_solids(const Keywords& keywords) {
+  for (const char* keyword : {"DDL_ESCL", "TRAN", "ANGL_NAUT"}) {
+    if (!keywords.given(keyword)) continue;
+    throw DiagnosticError("unsupported", fmt::format("LIAISON_MAIL: {} goes with TYPE_RACCORD='MASSIF' alone", keyword),
+                          keywords.span_of(keyword), "tie nodes that face each other by LIAISON_GROUP");
+  }
+}
+
 Relations glued_nodes(const Keywords& keywords, const LoadedModel& target, const std::set<int>& glued,
                       const solver::Origin& origin) {
   const auto hosts =
@@ -333,10 +342,20 @@ Relations glued_nodes(const Keywords& keywords, const LoadedModel& target, const
   std::erase_if(nodes, [&](int node) { return glued.contains(node); });
   const double farthest =
       keywords.has("DISTANCE_MAX") ? keywords.real("DISTANCE_MAX") : std::numeric_limits<double>::infinity();
-  const auto embeddings = solver::embed(target.mesh, nodes, hosts, farthest);
-  if (keywords.text("TYPE_RACCORD") == "MASSIF")
-    return solver::embedding_relations(target.mesh, target.dofs, embeddings, origin);
-  return solver::shell_embedding_relations(target.mesh, target.dofs, embeddings, origin);
+  const bool is_moved = keywords.given("TRAN") || keywords.given("ANGL_NAUT");
+  if (keywords.text("TYPE_RACCORD") != "MASSIF") {
+    require_solids(keywords);
+    return solver::shell_embedding_relations(target.mesh, target.dofs,
+                                             solver::embed(target.mesh, nodes, hosts, farthest), origin);
+  }
+  const solver::Placement movement = placement(keywords);
+  const auto embeddings = is_moved ? solver::embed_moved(target.mesh, nodes, hosts, movement, farthest)
+                                   : solver::embed(target.mesh, nodes, hosts, farthest);
+  if (!keywords.given("DDL_ESCL"))
+    return solver::embedding_relations(target.mesh, target.dofs, embeddings, origin, movement.rotation);
+  const auto normals =
+      solver::mean_normals(target.mesh, selected_cells(keywords, target.mesh, {"", "", "", "GROUP_MA_ESCL", ""}));
+  return solver::normal_embedding_relations(target.mesh, target.dofs, embeddings, normals, origin, movement.rotation);
 }
 
 // A node that an earlier occurrence has glued stays as it is, unless ELIM_MULT='OUI' lets it be eliminated several

@@ -1,5 +1,6 @@
 #include "solver/constraints/embedding.hpp"
 
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -60,30 +61,36 @@ std::optional<std::vector<double>> weights_inside(const Mesh& mesh, int cell, co
   return std::nullopt;
 }
 
-Embedding on_facet(const Mesh& mesh, int node, int cell, CellType type, std::span<const int> local) {
+/// A node at the place that it is brought to.
+struct Guest {
+  int node;
+  Eigen::Vector3d at;
+};
+
+Embedding on_facet(const Mesh& mesh, const Guest& guest, int cell, CellType type, std::span<const int> local) {
   std::vector<Eigen::Vector3d> points;
   for (const int a : local) points.push_back(place(mesh, mesh.cell(cell)[a]));
-  Embedding result{node, cell, std::vector<double>(mesh.cell(cell).size(), 0.0),
+  Embedding result{guest.node, cell, std::vector<double>(mesh.cell(cell).size(), 0.0),
                    std::numeric_limits<double>::infinity()};
-  const auto foot = project(place(mesh, node), type, points);
+  const auto foot = project(guest.at, type, points);
   if (!foot) return result;
   result.distance = foot->distance;
   for (std::size_t a = 0; a < local.size(); ++a) result.weights[local[a]] = foot->weights[a];
   return result;
 }
 
-Embedding on_cell(const Mesh& mesh, int node, int cell) {
+Embedding on_cell(const Mesh& mesh, const Guest& guest, int cell) {
   const CellType type = mesh.cell_types[cell];
   if (dimension(type) < 3) {
     std::vector<int> local(mesh.cell(cell).size());
     for (std::size_t a = 0; a < local.size(); ++a) local[a] = static_cast<int>(a);
-    return on_facet(mesh, node, cell, type, local);
+    return on_facet(mesh, guest, cell, type, local);
   }
-  if (auto weights = weights_inside(mesh, cell, place(mesh, node))) return {node, cell, std::move(*weights), 0.0};
-  Embedding best{node, cell, {}, std::numeric_limits<double>::infinity()};
+  if (auto weights = weights_inside(mesh, cell, guest.at)) return {guest.node, cell, std::move(*weights), 0.0};
+  Embedding best{guest.node, cell, {}, std::numeric_limits<double>::infinity()};
   for (const BoundaryFacet& facet : boundary_facets(type)) {
     const std::vector<int> local(facet.nodes.begin(), facet.nodes.begin() + node_count(facet.type));
-    Embedding here = on_facet(mesh, node, cell, facet.type, local);
+    Embedding here = on_facet(mesh, guest, cell, facet.type, local);
     if (here.distance < best.distance) best = std::move(here);
   }
   return best;
@@ -105,31 +112,47 @@ std::vector<Box> boxes_of(const Mesh& mesh, std::span<const int> cells) {
   return boxes;
 }
 
-}  // namespace
-
-std::vector<Embedding> embed(const Mesh& mesh, std::span<const int> nodes, std::span<const int> cells,
-                             double farthest) {
+std::vector<Embedding> nearest_hosts(const Mesh& mesh, std::span<const Guest> guests, std::span<const int> cells,
+                                     double farthest) {
   const BoxTree tree(boxes_of(mesh, cells));
-  std::set<int> known;
-  for (const int cell : cells) known.insert(mesh.cell(cell).begin(), mesh.cell(cell).end());
   std::vector<Embedding> result;
-  for (const int node : nodes) {
-    if (!known.insert(node).second) continue;
-    Embedding best{node, -1, {}, std::numeric_limits<double>::infinity()};
-    tree.search(place(mesh, node), [&](int item) {
-      Embedding here = on_cell(mesh, node, cells[item]);
+  for (const Guest& guest : guests) {
+    Embedding best{guest.node, -1, {}, std::numeric_limits<double>::infinity()};
+    tree.search(guest.at, [&](int item) {
+      Embedding here = on_cell(mesh, guest, cells[item]);
       const bool is_better =
           here.distance < best.distance || (here.distance == best.distance && cells[item] < best.cell);
       if (is_better) best = std::move(here);
       return best.distance;
     });
     if (best.cell < 0 || best.distance > farthest) {
-      throw Error("no-host", fmt::format("node {} is tied to no cell: the nearest is at {:.6g}", mesh.node_name(node),
-                                         best.distance));
+      throw Error("no-host", fmt::format("node {} is tied to no cell: the nearest is at {:.6g}",
+                                         mesh.node_name(guest.node), best.distance));
     }
     result.push_back(std::move(best));
   }
   return result;
+}
+
+}  // namespace
+
+std::vector<Embedding> embed(const Mesh& mesh, std::span<const int> nodes, std::span<const int> cells,
+                             double farthest) {
+  std::set<int> known;
+  for (const int cell : cells) known.insert(mesh.cell(cell).begin(), mesh.cell(cell).end());
+  std::vector<Guest> guests;
+  for (const int node : nodes)
+    if (known.insert(node).second) guests.push_back({node, place(mesh, node)});
+  return nearest_hosts(mesh, guests, cells, farthest);
+}
+
+std::vector<Embedding> embed_moved(const Mesh& mesh, std::span<const int> nodes, std::span<const int> cells,
+                                   const Placement& placement, double farthest) {
+  std::set<int> known;
+  std::vector<Guest> guests;
+  for (const int node : nodes)
+    if (known.insert(node).second) guests.push_back({node, placement(place(mesh, node))});
+  return nearest_hosts(mesh, guests, cells, farthest);
 }
 
 namespace {
@@ -177,20 +200,55 @@ std::vector<LinearRelation> shell_embedding_relations(const Mesh& mesh, const Do
   return relations;
 }
 
+namespace {
+
+/// direction . u of a node equals that of the place where it is tied, along the direction turned.
+LinearRelation relation_along(const Mesh& mesh, const Embedding& embedding, const Eigen::Vector3d& direction,
+                              const Eigen::Vector3d& turned, const Origin& origin) {
+  LinearRelation relation{{}, 0.0, {}, origin};
+  for (int c = 0; c < 3; ++c)
+    if (std::abs(direction[c]) > negligible_weight)
+      relation.terms.push_back({embedding.node, static_cast<Component>(c), direction[c]});
+  const auto host = mesh.cell(embedding.cell);
+  for (std::size_t a = 0; a < host.size(); ++a)
+    for (int c = 0; c < 3; ++c)
+      if (const double factor = embedding.weights[a] * turned[c]; std::abs(factor) > negligible_weight)
+        relation.terms.push_back({host[a], static_cast<Component>(c), -factor});
+  return relation;
+}
+
+}  // namespace
+
 std::vector<LinearRelation> embedding_relations(const Mesh& mesh, const DofMap& dofs,
-                                                std::span<const Embedding> embeddings, const Origin& origin) {
+                                                std::span<const Embedding> embeddings, const Origin& origin,
+                                                const Eigen::Matrix3d& rotation) {
+  std::vector<LinearRelation> relations;
+  for (const Embedding& embedding : embeddings)
+    for (int c = 0; c < 3; ++c)
+      if (dofs.dof(embedding.node, static_cast<Component>(c)) >= 0)
+        relations.push_back(relation_along(mesh, embedding, Eigen::Vector3d::Unit(c), rotation.col(c), origin));
+  return relations;
+}
+
+std::vector<LinearRelation> normal_embedding_relations(const Mesh& mesh, const DofMap& dofs,
+                                                       std::span<const Embedding> embeddings,
+                                                       const std::map<int, Eigen::Vector3d>& normals,
+                                                       const Origin& origin, const Eigen::Matrix3d& rotation) {
   std::vector<LinearRelation> relations;
   for (const Embedding& embedding : embeddings) {
-    const auto host = mesh.cell(embedding.cell);
-    for (const Component component : {Component::dx, Component::dy, Component::dz}) {
-      if (dofs.dof(embedding.node, component) < 0) continue;
-      LinearRelation relation{{{embedding.node, component, 1.0}}, 0.0, {}, origin};
-      for (std::size_t a = 0; a < host.size(); ++a) {
-        if (std::abs(embedding.weights[a]) > negligible_weight)
-          relation.terms.push_back({host[a], component, -embedding.weights[a]});
-      }
-      relations.push_back(std::move(relation));
+    const auto normal = normals.find(embedding.node);
+    if (normal == normals.end())
+      throw Error("no-normal", fmt::format("node {} has no normal", mesh.node_name(embedding.node)),
+                  "name the faces or edges on which it lies");
+    for (int c = 0; c < 3; ++c) {
+      const auto component = static_cast<Component>(c);
+      if (std::abs(normal->second[c]) <= negligible_weight || dofs.dof(embedding.node, component) >= 0) continue;
+      throw Error("unknown-dof",
+                  fmt::format("the normal of node {} has a part along {}, which the node does not carry",
+                              mesh.node_name(embedding.node), name_of(component)),
+                  "name the edges of plane bodies, and the faces of solids");
     }
+    relations.push_back(relation_along(mesh, embedding, normal->second, rotation * normal->second, origin));
   }
   return relations;
 }

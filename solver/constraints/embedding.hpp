@@ -2,10 +2,12 @@
 #pragma once
 
 #include <limits>
+#include <map>
 #include <span>
 #include <vector>
 
 #include "solver/loads/load.hpp"
+#include "solver/mesh/placement.hpp"
 #include "solver/model/model.hpp"
 
 namespace comma::solver {
@@ -24,9 +26,24 @@ struct Embedding {
 std::vector<Embedding> embed(const Mesh& mesh, std::span<const int> nodes, std::span<const int> cells,
                              double farthest = std::numeric_limits<double>::infinity());
 
-/// u(node) = sum of weight * u(cell's node), for each translation that the node has (U4.44.01, LIAISON_MAIL).
+/// The same for the places to which nodes are brought, those of the cells included.
+std::vector<Embedding> embed_moved(const Mesh& mesh, std::span<const int> nodes, std::span<const int> cells,
+                                   const Placement& placement,
+                                   double farthest = std::numeric_limits<double>::infinity());
+
+/// rotation u(node) = sum of weight * u(cell's node), for each translation that the node has (U4.44.01, LIAISON_MAIL):
+/// the displacement turns with the movement that brought the node to the cell.
 std::vector<LinearRelation> embedding_relations(const Mesh& mesh, const DofMap& dofs,
-                                                std::span<const Embedding> embeddings, const Origin& origin);
+                                                std::span<const Embedding> embeddings, const Origin& origin,
+                                                const Eigen::Matrix3d& rotation = Eigen::Matrix3d::Identity());
+
+/// The same along the normal of each node alone, which turns as well: n . u(node) = (rotation n) . sum of weight * u.
+/// Throws Error `no-normal` for a node without, `unknown-dof` where the node does not carry what its normal has.
+std::vector<LinearRelation> normal_embedding_relations(const Mesh& mesh, const DofMap& dofs,
+                                                       std::span<const Embedding> embeddings,
+                                                       const std::map<int, Eigen::Vector3d>& normals,
+                                                       const Origin& origin,
+                                                       const Eigen::Matrix3d& rotation = Eigen::Matrix3d::Identity());
 
 /// The same to shells, whose points move with the rotations of their nodes: with P the place of the cell that is
 /// nearest to the node M, u(M) = sum of weight * (u_i + rotation_i x PM), and rotation(M) = sum of weight * rotation_i

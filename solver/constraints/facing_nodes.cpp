@@ -55,8 +55,7 @@ std::vector<NodePair> facing_nodes(const Mesh& mesh, std::span<const int> first,
   const NearestNode nearest(mesh, to);
   std::map<int, int> taken;
   for (const int node : from) {
-    const Eigen::Vector3d moved =
-        placement.centre + placement.rotation * (place(mesh, node) - placement.centre) + placement.translation;
+    const Eigen::Vector3d moved = placement(place(mesh, node));
     const int opposite = nearest(moved);
     const auto [owner, is_free] = taken.try_emplace(opposite, node);
     if (!is_free) {

@@ -11,6 +11,7 @@
 
 #include "solver/loads/load.hpp"
 #include "solver/mesh/mesh.hpp"
+#include "solver/mesh/placement.hpp"
 
 namespace comma::solver {
 
@@ -19,16 +20,9 @@ struct NodePair {
   int second;
 };
 
-/// The movement that brings the first set onto the second: x -> centre + rotation (x - centre) + translation.
-struct Placement {
-  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
-  Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-};
-
-/// Pairs each node of the first set, once moved, with the nearest of the second; the order is that of the first set.
-/// Throws Error `no-facing-nodes` for sets of different size (nodes given twice count once), for a node whose nearest
-/// one is already another's, and for one further than `farthest` from it.
+/// Pairs each node of the first set, once moved by `placement`, with the nearest of the second; the order is that of
+/// the first set. Throws Error `no-facing-nodes` for sets of different size (nodes given twice count once), for a node
+/// whose nearest one is already another's, and for one further than `farthest` from it.
 std::vector<NodePair> facing_nodes(const Mesh& mesh, std::span<const int> first, std::span<const int> second,
                                    const Placement& placement = {},
                                    double farthest = std::numeric_limits<double>::infinity());

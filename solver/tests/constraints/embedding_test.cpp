@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
+#include "solver/mesh/axes.hpp"
+#include "solver/mesh/place.hpp"
 #include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/tests/exactly.hpp"
 
@@ -107,6 +109,59 @@ TEST_CASE("a node beside a shell moves and turns with it as a rigid body does") 
     }
     CHECK(std::abs(sum) < 1e-14);
   }
+}
+
+// What a relation leaves of a displacement field, per node.
+template <class FieldOf>
+double left_of(const Mesh& mesh, const LinearRelation& relation, FieldOf&& field) {
+  double sum = 0.0;
+  for (const auto& term : relation.terms)
+    sum += term.coefficient * field(place(mesh, term.node))[static_cast<int>(term.component)];
+  return sum;
+}
+
+TEST_CASE("displacements turn with the movement that brings a node to a cell") {
+  Mesh mesh;
+  for (const auto& at : reference_nodes(CellType::hexa8)) mesh.nodes.push_back({at[0], at[1], at[2]});
+  mesh.add_cell(CellType::hexa8, std::array{0, 1, 2, 3, 4, 5, 6, 7});
+  Placement placement;
+  placement.rotation = nautical_axes(0.6, 0.3, -0.4).transpose();
+  placement.centre = {2.0, 1.0, -1.0};
+  placement.translation = {0.5, 0.0, 0.2};
+  // A node that is brought inside the cell, and one of the cell's own, which is brought beside it.
+  const Eigen::Vector3d target(0.3, -0.2, 0.5);
+  const Eigen::Vector3d from =
+      placement.centre + placement.rotation.transpose() * (target - placement.translation - placement.centre);
+  mesh.nodes.push_back({from[0], from[1], from[2]});
+  const auto embeddings = embed_moved(mesh, std::vector{8, 0}, std::vector{0}, placement);
+  REQUIRE(embeddings.size() == 2);
+  CHECK(embeddings[0].distance == 0.0);
+  CHECK(embeddings[1].distance > 0.1);
+  // At the node a displacement of its own, in the cell the same linear field as seen from the place it comes from.
+  const auto turned_field = [&](const Eigen::Vector3d& at) -> Eigen::Vector3d {
+    const Eigen::Vector3d before =
+        placement.centre + placement.rotation.transpose() * (at - placement.translation - placement.centre);
+    return placement.rotation * Eigen::Vector3d(1.0 + before[0], 2.0 * before[1] - before[2], 0.5 * before[0]);
+  };
+  const auto field = [&](const Eigen::Vector3d& at) -> Eigen::Vector3d {
+    return at == from ? Eigen::Vector3d(placement.rotation.transpose() * turned_field(target)) : turned_field(at);
+  };
+  mesh.add_cell(CellType::poi1, std::array{8});
+  const DofMap all(Model{std::make_shared<Mesh>(mesh), {Formulation::solid, Formulation::spring_3d}});
+  const std::span<const Embedding> first(embeddings.data(), 1);
+  const auto relations = embedding_relations(mesh, all, first, origin, placement.rotation);
+  REQUIRE(relations.size() == 3);
+  for (const auto& relation : relations) CHECK(std::abs(left_of(mesh, relation, field)) < 1e-13);
+  const std::map<int, Eigen::Vector3d> normals = {{8, Eigen::Vector3d(0.6, 0.0, 0.8)}};
+  const auto along = normal_embedding_relations(mesh, all, first, normals, origin, placement.rotation);
+  REQUIRE(along.size() == 1);
+  CHECK(along[0].terms.front().node == 8);
+  CHECK(std::abs(left_of(mesh, along[0], field)) < 1e-13);
+  CHECK_THROWS_WITH(normal_embedding_relations(mesh, all, embeddings, normals, origin), Catch::Contains("no normal"));
+  Mesh plane = mesh;
+  plane.dimension = 2;
+  const DofMap flat(Model{std::make_shared<Mesh>(plane), {Formulation::none, Formulation::spring_2d}});
+  CHECK_THROWS_WITH(normal_embedding_relations(mesh, flat, first, normals, origin), Catch::Contains("along DZ"));
 }
 
 }  // namespace embedding_test
