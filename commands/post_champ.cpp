@@ -34,7 +34,7 @@ solver::ElementField layer_of(const Keywords& occurrence, const std::string& nam
   if (!is_layered(field))
     throw DiagnosticError("wrong-field", fmt::format("EXTR_COQUE: {} has one value a point", name),
                           occurrence.span_of("NOM_CHAM"),
-                          "take SIGM_ELGA, SIGM_ELNO, SIEQ_ELGA or SIEQ_ELNO of plates");
+                          "take stresses or strains of plates, such as SIGM_ELNO, SIEQ_ELNO or EPSI_ELNO");
   const auto& layered = std::get<solver::ElementField>(field);
   solver::ElementField taken =
       solver::values_in_layer(solver::on_cells(layered, cells), static_cast<int>(occurrence.integer("NUME_COUCHE")),

@@ -22,6 +22,8 @@
 
 namespace comma::solver {
 
+using namespace std::string_view_literals;
+
 namespace {
 
 /// A criterion and the field that it judges, both at the nodes of cells or both at Gauss points.
@@ -41,11 +43,13 @@ std::vector<int> skin_cells(const Model& model) {
   return cells;
 }
 
-// What plates have: forces and strains in their own axes, stresses in layers (of which one may be taken to the nodes),
-// energies, forces on nodes.
-constexpr std::array<std::string_view, 16> plate_fields = {
-    "EFGE_ELNO", "EFGE_NOEU", "DEGE_ELNO", "DEGE_NOEU", "SIEF_ELGA", "SIGM_ELGA", "SIGM_ELNO", "SIGM_NOEU",
-    "SIEQ_ELGA", "SIEQ_ELNO", "SIEQ_NOEU", "ETOT_ELEM", "EPOT_ELEM", "ENEL_ELEM", "FORC_NODA", "REAC_NODA"};
+// What plates have: forces and strains in their own axes, stresses and strains in layers (of which one may be taken to
+// the nodes), energies, forces on nodes.
+constexpr std::array plate_fields = {
+    "EFGE_ELGA"sv, "EFGE_ELNO"sv, "EFGE_NOEU"sv, "DEGE_ELGA"sv, "DEGE_ELNO"sv, "DEGE_NOEU"sv, "SIEF_ELGA"sv,
+    "SIEF_ELNO"sv, "SIEF_NOEU"sv, "SIGM_ELGA"sv, "SIGM_ELNO"sv, "SIGM_NOEU"sv, "SIEQ_ELGA"sv, "SIEQ_ELNO"sv,
+    "SIEQ_NOEU"sv, "EPSI_ELGA"sv, "EPSI_ELNO"sv, "EPSI_NOEU"sv, "EPEQ_ELGA"sv, "EPEQ_ELNO"sv, "EPEQ_NOEU"sv,
+    "ETOT_ELEM"sv, "EPOT_ELEM"sv, "ENEL_ELEM"sv, "FORC_NODA"sv, "REAC_NODA"sv};
 
 std::vector<int> all_cells(const Model& model) {
   std::vector<int> cells(static_cast<std::size_t>(model.mesh->cell_count()));
@@ -66,7 +70,7 @@ void check_plates(const Model& model, std::string_view name, std::optional<std::
   if (!cells && std::ranges::any_of(all, has_other_elements)) return;
   throw Error("unsupported",
               fmt::format("comma does not compute {} on plates such as {}", name, model.mesh->cell_name(*plate)),
-              "name the cells without plates, or take EFGE_ELNO or SIGM_ELNO");
+              "name the cells without plates, or take EFGE_ELNO, SIGM_ELNO or EPSI_ELNO");
 }
 
 std::vector<int> plate_cells(const Model& model) {
@@ -91,6 +95,7 @@ const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputati
   using F = FieldComputation;
   static const std::map<std::string, Rule, std::less<>> table = {
       {"SIEF_ELGA", &F::stresses},
+      {"SIEF_ELNO", &F::stresses_and_forces_at_nodes},
       {"SIGM_ELGA", &F::stress_field_at_points},
       {"SIGM_ELNO", &F::stress_field_at_nodes},
       {"EFGE_ELGA", &F::section_force_field},
@@ -100,6 +105,7 @@ const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputati
       {"DEGE_ELGA", &F::section_strains_at_points},
       {"DEGE_ELNO", &F::section_strains},
       {"EPSI_ELGA", &F::total_strains},
+      {"EPSI_ELNO", &F::total_strains_at_nodes},
       {"EPME_ELGA", &F::mechanical_strains},
       {"EPSG_ELGA", &F::green_strains},
       {"EPMG_ELGA", &F::mechanical_green_strains},
@@ -152,18 +158,32 @@ Field FieldComputation::derive(std::string_view name, std::size_t step, std::opt
     return extreme_stresses(input(), on_cells(element_field("EFGE_ELNO", step), *cells));
   if (name == "FORC_NODA" && cells) return internal_forces_of(*cells, step);
   if (name == "REAC_NODA" && cells) return reactions_of(*cells, step);
-  if (ends(name, "_NOEU")) return nodal_means(result_.mesh(), element_field(quantity + "_ELNO", step), cells);
+  if (ends(name, "_NOEU")) return means_at_nodes(quantity, step, cells);
   Field field;
   if (const auto rule = rules().find(name); rule != rules().end()) {
     field = (this->*rule->second)(step);
   } else if (const auto judged = strain_criteria().find(quantity); judged != strain_criteria().end()) {
     field = equivalent_strains(element_field(judged->second + std::string(name.substr(4)), step));
   } else {
-    field = to_element_nodes(
-        *problem_.model, quantity == "SIEF" ? stresses_beside_plates(step) : element_field(quantity + "_ELGA", step));
+    field = to_element_nodes(*problem_.model, element_field(quantity + "_ELGA", step));
   }
   if (cells && std::holds_alternative<ElementField>(field)) return on_cells(std::get<ElementField>(field), *cells);
   return field;
+}
+
+// Over the whole model, of strains and of SIEF, other elements than plates: plates have several values at a node.
+Field FieldComputation::means_at_nodes(const std::string& quantity, std::size_t step,
+                                       std::optional<std::span<const int>> cells) {
+  const ElementField& at_nodes = element_field(quantity + "_ELNO", step);
+  constexpr std::array beside_plates = {"SIEF"sv, "EPSI"sv, "EPEQ"sv};
+  if (cells || std::ranges::find(beside_plates, quantity) == beside_plates.end())
+    return nodal_means(result_.mesh(), at_nodes, cells);
+  std::vector<int> others = all_cells(*problem_.model);
+  std::erase_if(others, [&](int cell) {
+    return at_nodes.points(cell) == 0 || is_plate(problem_.model->formulations[static_cast<std::size_t>(cell)]);
+  });
+  if (others.empty()) return nodal_means(result_.mesh(), at_nodes);
+  return nodal_means(result_.mesh(), at_nodes, others);
 }
 
 const Field& FieldComputation::needed(const std::string& name, std::size_t step) {
@@ -286,8 +306,16 @@ ElementField FieldComputation::forces_at_nodes(std::size_t step) {
 Field FieldComputation::stress_field_at_nodes(std::size_t step) {
   if (!has_plates()) return to_element_nodes(*problem_.model, element_field("SIGM_ELGA", step));
   const ElementField of_continua = to_element_nodes(*problem_.model, continuum_stresses(stresses_beside_plates(step)));
-  return side_by_side(of_continua, plate_stresses(*problem_.model, *problem_.properties,
-                                                  to_element_nodes(*problem_.model, plate_forces(step))));
+  return side_by_side(of_continua, plate_stresses_at_nodes(step));
+}
+
+Field FieldComputation::stresses_and_forces_at_nodes(std::size_t step) {
+  const ElementField others = to_element_nodes(*problem_.model, stresses_beside_plates(step));
+  return has_plates() ? side_by_side(others, plate_stresses_at_nodes(step)) : others;
+}
+
+ElementField FieldComputation::plate_stresses_at_nodes(std::size_t step) {
+  return plate_stresses(*problem_.model, *problem_.properties, to_element_nodes(*problem_.model, plate_forces(step)));
 }
 
 bool FieldComputation::strains_act_on(std::size_t step, std::span<const int> cells) const {
@@ -302,7 +330,10 @@ ElementField FieldComputation::plate_forces(std::size_t step) {
                                  result_.steps[step].instant);
 }
 
-Field FieldComputation::section_force_field(std::size_t step) { return section_forces(stresses_beside_plates(step)); }
+Field FieldComputation::section_force_field(std::size_t step) {
+  const ElementField of_members = section_forces(stresses_beside_plates(step));
+  return has_plates() ? side_by_side(of_members, plate_forces(step)) : of_members;
+}
 
 Field FieldComputation::end_forces(std::size_t step) {
   const ForceInput forces{*problem_.model, *problem_.materials, *problem_.properties, dofs_, &assembler_.state()};
@@ -322,17 +353,26 @@ Field FieldComputation::largest_stresses(std::size_t step) {
 }
 
 Field FieldComputation::section_strains(std::size_t step) {
-  require_no_initial_stresses("DEGE_ELNO", step);
-  const ElementField forces = section_forces(forces_at_nodes(step));
-  const auto names_one = [&](std::string_view name) { return forces.component(name) >= 0; };
+  return strains_of_forces("DEGE_ELNO", section_forces(forces_at_nodes(step)), element_field("EFGE_ELNO", step), step);
+}
+
+Field FieldComputation::section_strains_at_points(std::size_t step) {
+  const ElementField& forces = element_field("EFGE_ELGA", step);
+  return strains_of_forces("DEGE_ELGA", forces, forces, step);
+}
+
+Field FieldComputation::strains_of_forces(std::string_view name, const ElementField& of_members,
+                                          const ElementField& of_plates, std::size_t step) {
+  require_no_initial_stresses(name, step);
+  const auto names_one = [&](std::string_view force) { return of_members.component(force) >= 0; };
   const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
-  if (!names_one("NXX")) return with_flow_of_bars(generalised_strains(input(), forces, &imposed), step);
+  if (!names_one("NXX")) return with_flow_of_bars(generalised_strains(input(), of_members, &imposed), step);
   if (strains_act_on(step, plate_cells(*problem_.model)))
-    throw Error("unsupported", "DEGE_ELNO of plates is not known beside initial strains (PRE_EPSI)");
-  const ElementField of_plates = plate_strains(input(), element_field("EFGE_ELNO", step));
+    throw Error("unsupported", fmt::format("{} of plates is not known beside initial strains (PRE_EPSI)", name));
+  const ElementField strains = plate_strains(input(), of_plates);
   return names_one("N")
-             ? side_by_side(with_flow_of_bars(generalised_strains(input(), forces, &imposed), step), of_plates)
-             : of_plates;
+             ? side_by_side(with_flow_of_bars(generalised_strains(input(), of_members, &imposed), step), strains)
+             : strains;
 }
 
 // The elongation of a bar that flows does not follow from its force.
@@ -353,14 +393,26 @@ ElementField FieldComputation::with_flow_of_bars(ElementField strains, std::size
   return strains;
 }
 
-Field FieldComputation::section_strains_at_points(std::size_t step) {
-  require_no_initial_stresses("DEGE_ELGA", step);
-  const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
-  return with_flow_of_bars(generalised_strains(input(), element_field("EFGE_ELGA", step), &imposed), step);
+Field FieldComputation::total_strains(std::size_t step) {
+  const ElementField of_continua = strains(input(), displacement(step), StrainKind::total);
+  return has_plates() ? side_by_side(of_continua, layer_strains_of(whole_plate_forces(step))) : of_continua;
 }
 
-Field FieldComputation::total_strains(std::size_t step) {
-  return strains(input(), displacement(step), StrainKind::total);
+Field FieldComputation::total_strains_at_nodes(std::size_t step) {
+  if (!has_plates()) return to_element_nodes(*problem_.model, element_field("EPSI_ELGA", step));
+  const ElementField of_continua =
+      to_element_nodes(*problem_.model, strains(input(), displacement(step), StrainKind::total));
+  return side_by_side(of_continua, layer_strains_of(to_element_nodes(*problem_.model, whole_plate_forces(step))));
+}
+
+// With what initial strains (PRE_EPSI) take off: those that belong to the whole strain.
+ElementField FieldComputation::whole_plate_forces(std::size_t step) {
+  return assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::integration_points, {},
+                                 result_.steps[step].instant);
+}
+
+ElementField FieldComputation::layer_strains_of(const ElementField& plate_forces) const {
+  return plate_layer_strains(*problem_.model, *problem_.properties, plate_strains(input(), plate_forces));
 }
 
 Field FieldComputation::mechanical_strains(std::size_t step) {

@@ -31,9 +31,9 @@ struct OtherPhases {
 /// EPSP, EPVC, DEGE; criteria SIEQ, EPEQ, EPMQ, EPGQ; DERA, which compares a step with the next one (absent at the
 /// last); INDIC_SEUIL, INDIC_ENER (X1, see loading_indicators.hpp); command variables VARC; energies ENEL, ETOT, EPOT;
 /// forces FORC_NODA, REAC_NODA. _ELGA is at Gauss points, _ELNO at the nodes of each cell (by local smoothing, see
-/// extrapolation.hpp; SIGM and SIEQ of plates at places in their thickness, see plate_stresses.hpp), _NOEU at nodes
-/// (the mean over the cells around each), _ELEM on the whole cell. A field that the step holds already is taken as it
-/// is where another needs it.
+/// extrapolation.hpp; SIEF, SIGM, SIEQ, EPSI and EPEQ of plates at places in their thickness, see plate_stresses.hpp),
+/// _NOEU at nodes (the mean over the cells around each), _ELEM on the whole cell. A field that the step holds already
+/// is taken as it is where another needs it.
 ///
 /// Keeps references to its arguments.
 class FieldComputation {
@@ -65,6 +65,7 @@ class FieldComputation {
   static const std::map<std::string, Rule, std::less<>>& rules();
 
   Field derive(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells = {});
+  Field means_at_nodes(const std::string& quantity, std::size_t step, std::optional<std::span<const int>> cells);
   const ElementField& element_field(const std::string& name, std::size_t step);
   const NodalField& displacement(std::size_t step);
   void move_to(std::size_t step);
@@ -73,11 +74,15 @@ class FieldComputation {
   Field stresses(std::size_t step);
   Field stress_field_at_points(std::size_t step);
   Field stress_field_at_nodes(std::size_t step);
+  Field stresses_and_forces_at_nodes(std::size_t step);
+  ElementField plate_stresses_at_nodes(std::size_t step);
   /// Whether loads strain any of the cells beforehand (PRE_EPSI).
   bool strains_act_on(std::size_t step, std::span<const int> cells) const;
   bool has_plates() const;
   const ElementField& stresses_beside_plates(std::size_t step);
   ElementField plate_forces(std::size_t step);
+  ElementField whole_plate_forces(std::size_t step);
+  ElementField layer_strains_of(const ElementField& plate_forces) const;
   /// SIEF_ELNO, with the forces of plates at their corners.
   ElementField forces_at_nodes(std::size_t step);
   Field section_force_field(std::size_t step);
@@ -87,7 +92,11 @@ class FieldComputation {
   ElementField with_flow_of_bars(ElementField strains, std::size_t step);
   Field section_strains(std::size_t step);
   Field section_strains_at_points(std::size_t step);
+  /// `of_members`: section forces of bars and beams, `of_plates`: those of plates, both known about their own axes.
+  Field strains_of_forces(std::string_view name, const ElementField& of_members, const ElementField& of_plates,
+                          std::size_t step);
   Field total_strains(std::size_t step);
+  Field total_strains_at_nodes(std::size_t step);
   Field mechanical_strains(std::size_t step);
   Field plastic_strains_at_points(std::size_t step);
   Field green_strains(std::size_t step);

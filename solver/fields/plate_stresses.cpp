@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include <Eigen/Dense>
 
@@ -23,36 +27,65 @@ std::array<double, 6> stress_at(double share, const PlateSection& section, const
   return {plane[0], plane[1], 0.0, plane[2], shear[0], shear[1]};
 }
 
-}  // namespace
+std::array<double, 6> strain_at(double share, const PlateSection& section, const PlateForces& strains) {
+  const double height = section.offset + 0.5 * share * section.thickness;
+  const Eigen::Vector3d plane = strains.head<3>() + height * strains.segment<3>(3);
+  return {plane[0], plane[1], 0.0, plane[2], 0.5 * strains[6], 0.5 * strains[7]};
+}
 
-ElementField plate_stresses(const Model& model, const ElementProperties& properties, const ElementField& forces) {
-  const PlateForceReader reader(forces);
+/// The tensor `value_at(share, section, values)` at each place in the thickness, `values` being the eight that
+/// `read(cell, point)` gives.
+template <class Read, class ValueAt>
+ElementField in_layers(const Model& model, const ElementProperties& properties, const ElementField& source,
+                       std::string quantity, std::span<const std::string_view, 6> names, Read&& read,
+                       ValueAt&& value_at) {
   const int cells = model.mesh->cell_count();
-  ElementField field{"SIEF_R",
-                     forces.support,
-                     {solid_stress_names.begin(), solid_stress_names.end()},
+  ElementField field{std::move(quantity),
+                     source.support,
+                     {names.begin(), names.end()},
                      {0},
                      {},
                      std::vector<int>(static_cast<std::size_t>(cells), 1)};
   for (int cell = 0; cell < cells; ++cell) {
-    if (forces.points(cell) == 0) {
+    if (source.points(cell) == 0) {
       field.starts.push_back(field.starts.back());
       continue;
     }
     const PlateSection& section = plate_section(model, properties, cell);
     const int places = places_a_layer * section.layers;
-    for (int point = 0; point < forces.points(cell); ++point) {
-      const PlateForces acting = reader.at(cell, point);
+    for (int point = 0; point < source.points(cell); ++point) {
+      const PlateForces values = read(cell, point);
       for (int place = 0; place < places; ++place) {
         const int layer = place / places_a_layer, half = place % places_a_layer;
-        const auto stress = stress_at((2.0 * layer + half) / section.layers - 1.0, section, acting);
-        field.values.insert(field.values.end(), stress.begin(), stress.end());
+        const auto tensor = value_at((2.0 * layer + half) / section.layers - 1.0, section, values);
+        field.values.insert(field.values.end(), tensor.begin(), tensor.end());
       }
     }
     field.sub_points[static_cast<std::size_t>(cell)] = places;
-    field.starts.push_back(field.starts.back() + forces.points(cell) * places);
+    field.starts.push_back(field.starts.back() + source.points(cell) * places);
   }
   return field;
+}
+
+}  // namespace
+
+ElementField plate_stresses(const Model& model, const ElementProperties& properties, const ElementField& forces) {
+  const PlateForceReader reader(forces);
+  return in_layers(
+      model, properties, forces, "SIEF_R", solid_stress_names,
+      [&](int cell, int point) { return reader.at(cell, point); }, stress_at);
+}
+
+ElementField plate_layer_strains(const Model& model, const ElementProperties& properties, const ElementField& strains) {
+  static constexpr std::array<std::string_view, 6> names = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
+  return in_layers(
+      model, properties, strains, "EPSI_R", names,
+      [&](int cell, int point) {
+        PlateForces values;
+        for (int c = 0; c < 8; ++c) values[c] = strains.at(cell, point, c);
+        return values;
+      },
+      strain_at);
 }
 
 int most_layers(const ElementField& field) {

@@ -1,5 +1,5 @@
-// Stresses of plates at places in their thickness, and the layer that is taken out of such a field (POST_CHAMP,
-// EXTR_COQUE; U4.81.05).
+// Stresses and strains of plates at places in their thickness, and the layer that is taken out of such a field
+// (POST_CHAMP, EXTR_COQUE; U4.81.05).
 #pragma once
 
 #include <cstdint>
@@ -14,6 +14,11 @@ namespace comma::solver {
 /// Linear through the thickness, SIZZ zero, the transverse shears a parabola that vanishes on both faces (R3.07.03).
 /// Throws Error `unknown-component`, `missing-properties`.
 ElementField plate_stresses(const Model& model, const ElementProperties& properties, const ElementField& forces);
+
+/// EPXX EPYY EPZZ EPXY EPXZ EPYZ at the same places out of EXX ... GAY (plate_strains(), about the surface of the
+/// mesh): linear through the thickness, EPXZ and EPYZ half of GAX and GAY all through it, EPZZ zero, for the theory of
+/// plates leaves the thickness as it is (R3.07.03). Throws Error `missing-properties`.
+ElementField plate_layer_strains(const Model& model, const ElementProperties& properties, const ElementField& strains);
 
 enum class LayerSide : std::uint8_t { lower, middle, upper };
 
