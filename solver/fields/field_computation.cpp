@@ -15,7 +15,6 @@
 #include "solver/fields/field_algebra.hpp"
 #include "solver/fields/nodal_forces.hpp"
 #include "solver/fields/plate_forces.hpp"
-#include "solver/fields/plate_stresses.hpp"
 #include "solver/fields/strains.hpp"
 #include "solver/fields/surface_stresses.hpp"
 #include "solver/fields/variable_fields.hpp"
@@ -71,13 +70,6 @@ void check_plates(const Model& model, std::string_view name, std::optional<std::
   throw Error("unsupported",
               fmt::format("comma does not compute {} on plates such as {}", name, model.mesh->cell_name(*plate)),
               "name the cells without plates, or take EFGE_ELNO, SIGM_ELNO or EPSI_ELNO");
-}
-
-std::vector<int> plate_cells(const Model& model) {
-  std::vector<int> cells;
-  for (int cell = 0; cell < model.mesh->cell_count(); ++cell)
-    if (is_plate(model.formulations[cell]) && !model.is_skin(cell)) cells.push_back(cell);
-  return cells;
 }
 
 bool ends(std::string_view name, std::string_view place) { return name.ends_with(place); }
@@ -171,21 +163,6 @@ Field FieldComputation::derive(std::string_view name, std::size_t step, std::opt
   return field;
 }
 
-// Over the whole model, of strains and of SIEF, other elements than plates: plates have several values at a node.
-Field FieldComputation::means_at_nodes(const std::string& quantity, std::size_t step,
-                                       std::optional<std::span<const int>> cells) {
-  const ElementField& at_nodes = element_field(quantity + "_ELNO", step);
-  constexpr std::array beside_plates = {"SIEF"sv, "EPSI"sv, "EPEQ"sv};
-  if (cells || std::ranges::find(beside_plates, quantity) == beside_plates.end())
-    return nodal_means(result_.mesh(), at_nodes, cells);
-  std::vector<int> others = all_cells(*problem_.model);
-  std::erase_if(others, [&](int cell) {
-    return at_nodes.points(cell) == 0 || is_plate(problem_.model->formulations[static_cast<std::size_t>(cell)]);
-  });
-  if (others.empty()) return nodal_means(result_.mesh(), at_nodes);
-  return nodal_means(result_.mesh(), at_nodes, others);
-}
-
 const Field& FieldComputation::needed(const std::string& name, std::size_t step) {
   const auto& held = result_.steps[step].fields;
   if (const auto found = held.find(name); found != held.end()) {
@@ -276,58 +253,9 @@ Field FieldComputation::internal_variables(std::size_t step) {
   return field;
 }
 
-Field FieldComputation::stress_field_at_points(std::size_t step) {
-  if (!has_plates()) return continuum_stresses(element_field("SIEF_ELGA", step));
-  return side_by_side(continuum_stresses(stresses_beside_plates(step)),
-                      plate_stresses(*problem_.model, *problem_.properties, plate_forces(step)));
-}
-
-// Stresses of plates and forces of other elements have little in common.
-const ElementField& FieldComputation::stresses_beside_plates(std::size_t step) {
-  const ElementField& all = element_field("SIEF_ELGA", step);
-  if (!has_plates()) return all;
-  const Key key(step, "SIEF_ELGA beside plates");
-  if (const auto found = known_.find(key); found != known_.end()) return std::get<ElementField>(found->second);
-  std::vector<int> others;
-  std::ranges::copy_if(all_cells(*problem_.model), std::back_inserter(others),
-                       [&](int cell) { return !is_plate(problem_.model->formulations[cell]); });
-  return std::get<ElementField>(known_.emplace(key, on_cells(all, others)).first->second);
-}
-
-ElementField FieldComputation::forces_at_nodes(std::size_t step) {
-  const ElementField others = to_element_nodes(*problem_.model, stresses_beside_plates(step));
-  if (!has_plates()) return others;
-  ElementField of_plates = assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::corners,
-                                                   problem_.loads, result_.steps[step].instant);
-  of_plates.support = Support::element_node;
-  return side_by_side(others, of_plates);
-}
-
-Field FieldComputation::stress_field_at_nodes(std::size_t step) {
-  if (!has_plates()) return to_element_nodes(*problem_.model, element_field("SIGM_ELGA", step));
-  const ElementField of_continua = to_element_nodes(*problem_.model, continuum_stresses(stresses_beside_plates(step)));
-  return side_by_side(of_continua, plate_stresses_at_nodes(step));
-}
-
-Field FieldComputation::stresses_and_forces_at_nodes(std::size_t step) {
-  const ElementField others = to_element_nodes(*problem_.model, stresses_beside_plates(step));
-  return has_plates() ? side_by_side(others, plate_stresses_at_nodes(step)) : others;
-}
-
-ElementField FieldComputation::plate_stresses_at_nodes(std::size_t step) {
-  return plate_stresses(*problem_.model, *problem_.properties, to_element_nodes(*problem_.model, plate_forces(step)));
-}
-
 bool FieldComputation::strains_act_on(std::size_t step, std::span<const int> cells) const {
   const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
   return std::ranges::any_of(cells, [&](int cell) { return imposed.acts_on(cell); });
-}
-
-bool FieldComputation::has_plates() const { return !plate_cells(*problem_.model).empty(); }
-
-ElementField FieldComputation::plate_forces(std::size_t step) {
-  return assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::integration_points, problem_.loads,
-                                 result_.steps[step].instant);
 }
 
 Field FieldComputation::section_force_field(std::size_t step) {
@@ -367,7 +295,7 @@ Field FieldComputation::strains_of_forces(std::string_view name, const ElementFi
   const auto names_one = [&](std::string_view force) { return of_members.component(force) >= 0; };
   const ImposedStrains imposed(*problem_.model, problem_.loads, result_.steps[step].instant);
   if (!names_one("NXX")) return with_flow_of_bars(generalised_strains(input(), of_members, &imposed), step);
-  if (strains_act_on(step, plate_cells(*problem_.model)))
+  if (strains_act_on(step, plates()))
     throw Error("unsupported", fmt::format("{} of plates is not known beside initial strains (PRE_EPSI)", name));
   const ElementField strains = plate_strains(input(), of_plates);
   return names_one("N")
@@ -391,28 +319,6 @@ ElementField FieldComputation::with_flow_of_bars(ElementField strains, std::size
                      static_cast<std::size_t>(axial)] = whole->at(cell, 0, column);
   }
   return strains;
-}
-
-Field FieldComputation::total_strains(std::size_t step) {
-  const ElementField of_continua = strains(input(), displacement(step), StrainKind::total);
-  return has_plates() ? side_by_side(of_continua, layer_strains_of(whole_plate_forces(step))) : of_continua;
-}
-
-Field FieldComputation::total_strains_at_nodes(std::size_t step) {
-  if (!has_plates()) return to_element_nodes(*problem_.model, element_field("EPSI_ELGA", step));
-  const ElementField of_continua =
-      to_element_nodes(*problem_.model, strains(input(), displacement(step), StrainKind::total));
-  return side_by_side(of_continua, layer_strains_of(to_element_nodes(*problem_.model, whole_plate_forces(step))));
-}
-
-// With what initial strains (PRE_EPSI) take off: those that belong to the whole strain.
-ElementField FieldComputation::whole_plate_forces(std::size_t step) {
-  return assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::integration_points, {},
-                                 result_.steps[step].instant);
-}
-
-ElementField FieldComputation::layer_strains_of(const ElementField& plate_forces) const {
-  return plate_layer_strains(*problem_.model, *problem_.properties, plate_strains(input(), plate_forces));
 }
 
 Field FieldComputation::mechanical_strains(std::size_t step) {

@@ -78,6 +78,7 @@ class FieldComputation {
   ElementField plate_stresses_at_nodes(std::size_t step);
   /// Whether loads strain any of the cells beforehand (PRE_EPSI).
   bool strains_act_on(std::size_t step, std::span<const int> cells) const;
+  std::vector<int> plates() const;
   bool has_plates() const;
   const ElementField& stresses_beside_plates(std::size_t step);
   ElementField plate_forces(std::size_t step);

@@ -1,0 +1,109 @@
+// The part of FieldComputation that computes what plates have beside the fields of other elements.
+#include <algorithm>
+#include <array>
+
+#include "solver/fields/extrapolation.hpp"
+#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_computation.hpp"
+#include "solver/fields/nodal_forces.hpp"
+#include "solver/fields/plate_forces.hpp"
+#include "solver/fields/plate_stresses.hpp"
+#include "solver/fields/strains.hpp"
+
+namespace comma::solver {
+
+std::vector<int> FieldComputation::plates() const {
+  const Model& model = *problem_.model;
+  std::vector<int> cells;
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell)
+    if (is_plate(model.formulations[static_cast<std::size_t>(cell)]) && !model.is_skin(cell)) cells.push_back(cell);
+  return cells;
+}
+
+bool FieldComputation::has_plates() const { return !plates().empty(); }
+
+Field FieldComputation::stress_field_at_points(std::size_t step) {
+  if (!has_plates()) return continuum_stresses(element_field("SIEF_ELGA", step));
+  return side_by_side(continuum_stresses(stresses_beside_plates(step)),
+                      plate_stresses(*problem_.model, *problem_.properties, plate_forces(step)));
+}
+
+// Stresses of plates and forces of other elements have little in common.
+const ElementField& FieldComputation::stresses_beside_plates(std::size_t step) {
+  const ElementField& all = element_field("SIEF_ELGA", step);
+  if (!has_plates()) return all;
+  const Key key(step, "SIEF_ELGA beside plates");
+  if (const auto found = known_.find(key); found != known_.end()) return std::get<ElementField>(found->second);
+  std::vector<int> others;
+  for (int cell = 0; cell < problem_.model->mesh->cell_count(); ++cell)
+    if (!is_plate(problem_.model->formulations[static_cast<std::size_t>(cell)])) others.push_back(cell);
+  return std::get<ElementField>(known_.emplace(key, on_cells(all, others)).first->second);
+}
+
+ElementField FieldComputation::forces_at_nodes(std::size_t step) {
+  const ElementField others = to_element_nodes(*problem_.model, stresses_beside_plates(step));
+  if (!has_plates()) return others;
+  ElementField of_plates = assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::corners,
+                                                   problem_.loads, result_.steps[step].instant);
+  of_plates.support = Support::element_node;
+  return side_by_side(others, of_plates);
+}
+
+Field FieldComputation::stress_field_at_nodes(std::size_t step) {
+  if (!has_plates()) return to_element_nodes(*problem_.model, element_field("SIGM_ELGA", step));
+  const ElementField of_continua = to_element_nodes(*problem_.model, continuum_stresses(stresses_beside_plates(step)));
+  return side_by_side(of_continua, plate_stresses_at_nodes(step));
+}
+
+Field FieldComputation::stresses_and_forces_at_nodes(std::size_t step) {
+  const ElementField others = to_element_nodes(*problem_.model, stresses_beside_plates(step));
+  return has_plates() ? side_by_side(others, plate_stresses_at_nodes(step)) : others;
+}
+
+ElementField FieldComputation::plate_stresses_at_nodes(std::size_t step) {
+  return plate_stresses(*problem_.model, *problem_.properties, to_element_nodes(*problem_.model, plate_forces(step)));
+}
+
+ElementField FieldComputation::plate_forces(std::size_t step) {
+  return assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::integration_points, problem_.loads,
+                                 result_.steps[step].instant);
+}
+
+// With what initial strains (PRE_EPSI) take off: those that belong to the whole strain.
+ElementField FieldComputation::whole_plate_forces(std::size_t step) {
+  return assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::integration_points, {},
+                                 result_.steps[step].instant);
+}
+
+ElementField FieldComputation::layer_strains_of(const ElementField& plate_forces) const {
+  return plate_layer_strains(*problem_.model, *problem_.properties, plate_strains(input(), plate_forces));
+}
+
+Field FieldComputation::total_strains(std::size_t step) {
+  const ElementField of_continua = strains(input(), displacement(step), StrainKind::total);
+  return has_plates() ? side_by_side(of_continua, layer_strains_of(whole_plate_forces(step))) : of_continua;
+}
+
+Field FieldComputation::total_strains_at_nodes(std::size_t step) {
+  if (!has_plates()) return to_element_nodes(*problem_.model, element_field("EPSI_ELGA", step));
+  const ElementField of_continua =
+      to_element_nodes(*problem_.model, strains(input(), displacement(step), StrainKind::total));
+  return side_by_side(of_continua, layer_strains_of(to_element_nodes(*problem_.model, whole_plate_forces(step))));
+}
+
+// Over the whole model, of strains and of SIEF, other elements than plates: plates have several values at a node.
+Field FieldComputation::means_at_nodes(const std::string& quantity, std::size_t step,
+                                       std::optional<std::span<const int>> cells) {
+  const ElementField& at_nodes = element_field(quantity + "_ELNO", step);
+  static constexpr std::array<std::string_view, 3> beside_plates = {"SIEF", "EPSI", "EPEQ"};
+  if (cells || std::ranges::find(beside_plates, quantity) == beside_plates.end())
+    return nodal_means(result_.mesh(), at_nodes, cells);
+  std::vector<int> others;
+  for (int cell = 0; cell < problem_.model->mesh->cell_count(); ++cell)
+    if (at_nodes.points(cell) > 0 && !is_plate(problem_.model->formulations[static_cast<std::size_t>(cell)]))
+      others.push_back(cell);
+  if (others.empty()) return nodal_means(result_.mesh(), at_nodes);
+  return nodal_means(result_.mesh(), at_nodes, others);
+}
+
+}  // namespace comma::solver
