@@ -260,7 +260,7 @@ solver::FieldComputation& FieldsOfSteps::computation_of(std::size_t step) {
   others.begin = own.begin;
   others.end = own.end;
   others.field = [this](const std::string& name, std::size_t index) -> const solver::Field& {
-    return computation_of(index).needed(name, index);
+    return computation_of(index).whole(name, index);
   };
   others.stiffness_changes = std::ranges::any_of(phases_, is_other);
   own.computation = std::make_unique<solver::FieldComputation>(own.problem, source_.result, std::move(others));

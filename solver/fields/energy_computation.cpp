@@ -24,7 +24,7 @@ Field FieldComputation::elastic_energy(std::size_t step) {
   const ElementField& stresses = stresses_beside_plates(step);
   Field energies = elastic_energy_density(input(), stresses);
   if (const std::vector<int> cells = cells_in_green_strains(); !cells.empty()) {
-    const Field of_strains = strain_energy_density(input(), element_field("EPMG_ELGA", step));
+    const Field of_strains = strain_energy_density(input(), whole_field("EPMG_ELGA", step));
     put_piece(energies, {&of_strains, {}, {}, 1.0, false}, &cells);
   }
   if (assembler_.has_memory()) {
@@ -74,11 +74,10 @@ bool FieldComputation::has_bars_with_memory() const {
 // what they remember.
 Field FieldComputation::elastic_energy_of_cells(std::size_t step) {
   const Eigen::VectorXd u = to_dofs(displacement(step), dofs_);
-  if (has_bars_with_memory())
-    assembler_.resume(u, &element_field("SIEF_ELGA", step), &element_field("VARI_ELGA", step));
+  if (has_bars_with_memory()) assembler_.resume(u, &whole_field("SIEF_ELGA", step), &whole_field("VARI_ELGA", step));
   require_no_initial_stresses("the elastic energy", step);
   Field energies = assembler_.elastic_energies(u);
-  const Field continua = integrate_cells(*problem_.model, element_field("ENEL_ELGA", step));
+  const Field continua = integrate_cells(*problem_.model, whole_field("ENEL_ELGA", step));
   put_piece(energies, {&continua, {}, {}, 1.0, false});
   return energies;
 }
@@ -100,7 +99,7 @@ Field FieldComputation::potential_energy_of_cells(std::size_t step) {
   elastic.set_time(result_.steps[step].instant);
   elastic.impose_strains(problem_.loads, result_.steps[step].instant);
   const ElementField of_displacements = elastic.stresses(u, problem_.loads, result_.steps[step].instant);
-  if (const auto cell = cell_of_other_values(of_displacements, element_field("SIEF_ELGA", step)))
+  if (const auto cell = cell_of_other_values(of_displacements, whole_field("SIEF_ELGA", step)))
     throw Error("unsupported",
                 fmt::format("the potential energy is not known where a computation began with stresses that are not "
                             "those of its displacements, as on cell {}",
@@ -113,11 +112,11 @@ Field FieldComputation::potential_energy_of_cells(std::size_t step) {
 // as there are steps.
 void FieldComputation::know_earlier(const std::string& name, std::size_t step) {
   const auto is_known = [&](std::size_t earlier) {
-    return result_.steps[earlier].fields.contains(name) || known_.contains(Key(earlier, name));
+    return holds_whole(name, earlier) || known_.contains(Key(earlier, name));
   };
   std::size_t next = step;
   while (next > 0 && !is_known(next - 1)) --next;
-  for (; next < step; ++next) needed(name, next);
+  for (; next < step; ++next) whole(name, next);
   move_to(step);
 }
 
@@ -129,14 +128,14 @@ Field FieldComputation::total_energy(std::size_t step) {
   const NodalField* displacement_before = nullptr;
   if (step > 0) {
     stress_before = &stresses_beside_plates(step - 1);
-    strain_before = &element_field("EPSI_ELGA", step - 1);
-    before = &element_field("ETOT_ELGA", step - 1);
+    strain_before = &whole_field("EPSI_ELGA", step - 1);
+    before = &whole_field("ETOT_ELGA", step - 1);
     displacement_before = &displacement(step - 1);
     move_to(step);
   }
   const ElementField& stress = stresses_beside_plates(step);
   ElementField energies =
-      total_energy_density(stress, element_field("EPSI_ELGA", step), stress_before, strain_before, before);
+      total_energy_density(stress, whole_field("EPSI_ELGA", step), stress_before, strain_before, before);
   add_stabilisation_work(*problem_.model, stress, displacement(step), stress_before, displacement_before, energies);
   return energies;
 }
@@ -144,7 +143,7 @@ Field FieldComputation::total_energy(std::size_t step) {
 // The work of the normal force of bars adds up like that of stresses; that of the forces of beams, plates and discrete
 // elements is their elastic energy, as long as they are elastic and nothing else strains them.
 Field FieldComputation::total_energy_of_cells(std::size_t step) {
-  ElementField energies = integrate_cells(*problem_.model, element_field("ETOT_ELGA", step));
+  ElementField energies = integrate_cells(*problem_.model, whole_field("ETOT_ELGA", step));
   const Model& model = *problem_.model;
   std::vector<int> bars, others;
   for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
@@ -190,18 +189,18 @@ ElementField FieldComputation::work_of_bars(const std::vector<int>& bars, std::s
   const auto lacks = [&](const ElementField& before) {
     return std::ranges::any_of(bars, [&](int cell) { return before.points(cell) == 0; });
   };
-  if (step > 0 && (lacks(element_field("SIEF_ELGA", step - 1)) || lacks(element_field("ETOT_ELEM", step - 1))))
+  if (step > 0 && (lacks(whole_field("SIEF_ELGA", step - 1)) || lacks(whole_field("ETOT_ELEM", step - 1))))
     throw Error(
         "incompatible-field",
         fmt::format("the total energy adds up from step to step, and step INST={} of the result lacks forces or "
                     "energies of bars",
                     result_.steps[step - 1].instant),
         "compute ETOT_ELEM of all steps on the whole model, and with one model");
-  ElementField of_bars = bar_work(*problem_.model, bars, element_field("SIEF_ELGA", step), displacement(step),
-                                  step > 0 ? &element_field("SIEF_ELGA", step - 1) : nullptr,
-                                  step > 0 ? &displacement(step - 1) : nullptr);
+  ElementField of_bars =
+      bar_work(*problem_.model, bars, whole_field("SIEF_ELGA", step), displacement(step),
+               step > 0 ? &whole_field("SIEF_ELGA", step - 1) : nullptr, step > 0 ? &displacement(step - 1) : nullptr);
   if (step == 0) return of_bars;
-  const ElementField& before = element_field("ETOT_ELEM", step - 1);
+  const ElementField& before = whole_field("ETOT_ELEM", step - 1);
   for (const int cell : bars) of_bars.values[static_cast<std::size_t>(of_bars.starts[cell])] += before.at(cell, 0, 0);
   move_to(step);
   return of_bars;
@@ -217,13 +216,13 @@ Field FieldComputation::unloading(std::size_t step) {
 }
 
 Field FieldComputation::yield_of_loading(std::size_t step) {
-  return yield_indicator(input(), {element_field("EPSP_ELGA", step), stresses_beside_plates(step),
-                                   element_field("VARI_ELGA", step), problem_.behaviours.get()});
+  return yield_indicator(input(), {whole_field("EPSP_ELGA", step), stresses_beside_plates(step),
+                                   whole_field("VARI_ELGA", step), problem_.behaviours.get()});
 }
 
 Field FieldComputation::energy_of_loading(std::size_t step) {
-  return energy_indicator(input(), {element_field("EPSP_ELGA", step), stresses_beside_plates(step),
-                                    element_field("VARI_ELGA", step), problem_.behaviours.get()});
+  return energy_indicator(input(), {whole_field("EPSP_ELGA", step), stresses_beside_plates(step),
+                                    whole_field("VARI_ELGA", step), problem_.behaviours.get()});
 }
 
 }  // namespace comma::solver

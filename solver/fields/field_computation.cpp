@@ -159,8 +159,10 @@ Field FieldComputation::derive(std::string_view name, std::size_t step, std::opt
   } else {
     field = to_element_nodes(*problem_.model, element_field(quantity + "_ELGA", step));
   }
-  if (cells && std::holds_alternative<ElementField>(field)) return on_cells(std::get<ElementField>(field), *cells);
-  return field;
+  if (!cells || !std::holds_alternative<ElementField>(field)) return field;
+  // The next step may add to what is whole.
+  const auto known = known_.insert_or_assign(Key(step, name), std::move(field)).first;
+  return on_cells(std::get<ElementField>(known->second), *cells);
 }
 
 const Field& FieldComputation::needed(const std::string& name, std::size_t step) {
@@ -182,6 +184,23 @@ const Field& FieldComputation::needed(const std::string& name, std::size_t step)
 
 const ElementField& FieldComputation::element_field(const std::string& name, std::size_t step) {
   return std::get<ElementField>(needed(name, step));
+}
+
+bool FieldComputation::holds_whole(const std::string& name, std::size_t step) const {
+  return result_.steps[step].fields.contains(name) && !result_.steps[step].limited.contains(name);
+}
+
+const Field& FieldComputation::whole(const std::string& name, std::size_t step) {
+  if (holds_whole(name, step) || !knows(name)) return needed(name, step);
+  if (step < others_.begin || step >= others_.end) return others_.field(name, step);
+  const Key key(step, name);
+  if (const auto found = known_.find(key); found != known_.end()) return found->second;
+  Field field = derive(name, step);
+  return known_.emplace(key, std::move(field)).first->second;
+}
+
+const ElementField& FieldComputation::whole_field(const std::string& name, std::size_t step) {
+  return std::get<ElementField>(whole(name, step));
 }
 
 const NodalField& FieldComputation::displacement(std::size_t step) {

@@ -55,6 +55,10 @@ class FieldComputation {
   /// computed.
   const Field& needed(const std::string& name, std::size_t step);
 
+  /// The same, but computed anew where the step holds it of some cells only: what adds up from step to step or over a
+  /// cell, and what compares steps, takes this one.
+  const Field& whole(const std::string& name, std::size_t step);
+
   /// The fields of the steps that have been taken as they are and lie on some cells only: what was computed from them
   /// lacks the rest.
   const std::set<std::string>& limited_sources() const { return limited_sources_; }
@@ -67,6 +71,8 @@ class FieldComputation {
   Field derive(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells = {});
   Field means_at_nodes(const std::string& quantity, std::size_t step, std::optional<std::span<const int>> cells);
   const ElementField& element_field(const std::string& name, std::size_t step);
+  bool holds_whole(const std::string& name, std::size_t step) const;
+  const ElementField& whole_field(const std::string& name, std::size_t step);
   const NodalField& displacement(std::size_t step);
   void move_to(std::size_t step);
   FieldInput input() const;

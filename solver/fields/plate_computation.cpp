@@ -30,7 +30,7 @@ Field FieldComputation::stress_field_at_points(std::size_t step) {
 
 // Stresses of plates and forces of other elements have little in common.
 const ElementField& FieldComputation::stresses_beside_plates(std::size_t step) {
-  const ElementField& all = element_field("SIEF_ELGA", step);
+  const ElementField& all = whole_field("SIEF_ELGA", step);
   if (!has_plates()) return all;
   const Key key(step, "SIEF_ELGA beside plates");
   if (const auto found = known_.find(key); found != known_.end()) return std::get<ElementField>(found->second);
