@@ -38,6 +38,11 @@ std::vector<double> new_instants(std::vector<double> instants, const solver::Res
   return instants;
 }
 
+void warn_of_statics(const Call& call, const solver::StaticProblem& problem, Context& context) {
+  warn_of_scene(call, problem, context);
+  warn_of_loads_at_the_start(call, problem, instants(call).front(), context);
+}
+
 solver::LinearStaticOptions options_of(const Call& call) {
   const SolverChoice choice = solver_choice(call);
   return {choice.method, choice.options, call.text("OPTION") == "SIEF_ELGA"};
@@ -49,7 +54,7 @@ Product prepare_meca_statique(const Call& call, Context& context) {
   const solver::StaticProblem problem = static_problem(call);
   check_multipliers(call, instants(call));
   solver::require_solvable(problem, options_of(call));
-  if (context.only_checks) warn_of_scene(call, problem, context);
+  if (context.only_checks) warn_of_statics(call, problem, context);
   return nullptr;
 }
 
@@ -69,7 +74,7 @@ Product meca_statique(const Call& call, Context& context) {
                               "make another result, or name other instants (INST, LIST_INST)");
   // What has been solved stays readable although a later instant fails.
   call.result->data = product;
-  warn_of_scene(call, product->problem, context);
+  warn_of_statics(call, product->problem, context);
   const solver::Counters before = context.counters;
   solver::solve_linear_static(product->problem, wanted, options, product->result, context.counters);
   warn_of_indefinite_stiffness(call, before, context);

@@ -13,7 +13,12 @@ namespace comma::commands {
 /// more than once), `other-model` (a load, contact or properties that were made on a model of other elements).
 void warn_of_scene(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
 
-/// The same, and of STAT_NON_LINE: `strained-start` (command variables strain the body at `first_instant` already,
+/// Of MECA_STATIQUE, which computes `instant` where the file names none: alarm `no-load` where functions of time make all
+/// loads vanish there.
+void warn_of_loads_at_the_start(const interpreter::Call& call, const solver::StaticProblem& problem, double instant,
+                                Context& context);
+
+/// The same as warn_of_scene(), and of STAT_NON_LINE: `strained-start` (command variables strain the body at `first_instant` already,
 /// without an initial state), `no-behaviour` (cells that COMPORTEMENT leaves out), `initial-strains` (PRE_EPSI of
 /// materials that remember), and of what ETAT_INIT lacks `no-initial-field`, `partial-state`, `forgotten-flow`,
 /// `no-internal-variables`, `released-points` (a contact with GLISSIERE goes on from fields), `other-variables` (a cell
