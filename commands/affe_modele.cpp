@@ -45,6 +45,32 @@ const std::map<std::string, Formulation, std::less<>>& formulations() {
   return table;
 }
 
+// Of continua and plates; 0: of other elements.
+int body_dimension(Formulation formulation) {
+  return solver::is_plate(formulation) ? 2 : solver::continuum_dimension(formulation);
+}
+
+int cell_dimension(const solver::Mesh& mesh, int cell) {
+  return solver::dimension(mesh.cell_types[static_cast<std::size_t>(cell)]);
+}
+
+int highest_dimension(const Keywords& assignment, const solver::Mesh& mesh) {
+  int highest = 0;
+  for (const int cell : selected_cells(assignment, mesh)) highest = std::max(highest, cell_dimension(mesh, cell));
+  return highest;
+}
+
+std::string fitting_modelisations(const Keywords& assignment, const solver::Mesh& mesh) {
+  switch (highest_dimension(assignment, mesh)) {
+    case 3:
+      return "volumes are bodies with 3D";
+    case 2:
+      return "surfaces are bodies with D_PLAN, C_PLAN or AXIS, triangles and quadrangles plates with DKT";
+    default:
+      return "segments are bars and beams (BARRE, POU_D_T), points and segments springs (DIS_T)";
+  }
+}
+
 // Plane elements, bars too, see X and Y alone, and loads on their edges the length in space.
 void require_flat_cell(const solver::Mesh& mesh, int cell, const Keywords& assignment) {
   constexpr double largest_slope = 1e-3;  // the error in lengths is half of its square
@@ -58,7 +84,10 @@ void require_flat_cell(const solver::Mesh& mesh, int cell, const Keywords& assig
       fmt::format(
           "AFFE_MODELE: cell {} of a plane model does not lie in a plane Z = constant: Z varies by {:.3g} over it",
           mesh.cell_name(cell), size[2]),
-      assignment.span, "turn the mesh into the plane of X and Y (MODI_MAILLAGE), or take plates or a solid");
+      assignment.span,
+      highest_dimension(assignment, mesh) == 3
+          ? "the mesh has volumes, which are bodies with 3D"
+          : "turn the mesh into the plane of X and Y (MODI_MAILLAGE), or take plates or a solid");
 }
 
 // A plate is the projection of its cell: rigid rotations of a warped one are not quite free of strain.
@@ -87,6 +116,29 @@ void warn_of_warped_plates(const Call& call, const solver::Model& model, Context
       call.span, "take triangles, or smaller cells; VERI_PLAN='NON' says that they are meant so");
 }
 
+// Faces with 3D are the skin of solids, also where there are none.
+void warn_of_skin_alone(const Keywords& assignment, const solver::Model& model, Context& context) {
+  const int dimension = body_dimension(formulations().at(assignment.texts("MODELISATION").front()));
+  if (dimension == 0) return;
+  const auto is_body = [&](std::size_t cell) {
+    return body_dimension(model.formulations[cell]) == dimension && !model.is_skin(static_cast<int>(cell));
+  };
+  for (std::size_t cell = 0; cell < model.formulations.size(); ++cell)
+    if (is_body(cell)) return;
+  std::vector<int> skin = selected_cells(assignment, *model.mesh);
+  std::erase_if(skin, [&](int cell) { return !model.is_skin(cell); });
+  if (skin.empty()) return;
+  const int example = *std::ranges::max_element(skin, {}, [&](int cell) { return cell_dimension(*model.mesh, cell); });
+  context.diagnostics.alarm(
+      "skin-alone",
+      fmt::format(
+          "AFFE_MODELE: with {}, cells such as {} ({}) are the skin of bodies that the model does not have: they "
+          "bring no stiffness",
+          assignment.texts("MODELISATION").front(), model.mesh->cell_name(example),
+          solver::name_of(model.mesh->cell_types[static_cast<std::size_t>(example)])),
+      assignment.span_of("MODELISATION"), fitting_modelisations(assignment, *model.mesh));
+}
+
 }  // namespace
 
 Product affe_modele(const Call& call, Context& context) {
@@ -109,11 +161,10 @@ Product affe_modele(const Call& call, Context& context) {
     if (assigned == 0) {
       throw interpreter::DiagnosticError(
           "no-element", "AFFE_MODELE: none of these cells can carry " + assignment.texts("MODELISATION").front(),
-          assignment.span,
-          "name cells of the right dimension: faces for D_PLAN and C_PLAN, TRIA3 and QUAD4 for DKT and DST, segments "
-          "or points for 2D_DIS_T");
+          assignment.span, fitting_modelisations(assignment, mesh));
     }
   }
+  for (const Keywords& assignment : call.factors("AFFE")) warn_of_skin_alone(assignment, *model, context);
   if (call.text("VERI_PLAN") == "OUI") warn_of_warped_plates(call, *model, context);
   auto product = std::make_shared<ModelConcept>();
   product->model = std::move(model);

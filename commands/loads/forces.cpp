@@ -72,6 +72,21 @@ void take_moment(const Keywords& occurrence, const LoadedModel& target, const Di
   override_given(turning, moments[cell].moment, moments[cell].functions);
 }
 
+// A plane body lacks the third.
+void require_components(const Keywords& occurrence, const LoadedModel& target, int cell, const Amounts<3>& amounts) {
+  constexpr std::array<const char*, 3> names = {"FX", "FY", "FZ"};
+  for (std::size_t axis = 0; axis < amounts.size(); ++axis) {
+    const auto component = static_cast<solver::Component>(axis);
+    const bool acts = amounts[axis] && (amounts[axis]->value != 0.0 || amounts[axis]->function);
+    if (!acts || target.dofs.dof(target.mesh.cell(cell)[0], component) >= 0) continue;
+    throw DiagnosticError("unknown-dof",
+                          fmt::format("{} acts on cell {}, whose nodes have no {}", names[axis],
+                                      target.mesh.cell_name(cell), solver::name_of(component)),
+                          occurrence.at(names[axis]).name_span,
+                          "a plane model bears forces along X and Y: give FX and FY alone");
+  }
+}
+
 void add_distributed_forces(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   for (const DistributedKeyword& keyword : distributed_keywords) {
     ByCell<solver::DistributedForce> forces;
@@ -80,6 +95,7 @@ void add_distributed_forces(const Keywords& call, const LoadedModel& target, sol
       const auto amounts = given_amounts<3>(occurrence, {"FX", "FY", "FZ"});
       const auto can_bear = [&](int cell) { return bears(target, keyword, cell); };
       for (const int cell : loadable_cells(occurrence, target, keyword.name, keyword.what, can_bear)) {
+        require_components(occurrence, target, cell, amounts);
         auto& force = forces[cell];
         force.cell = cell;
         override_given(amounts, force.force, force.functions);
