@@ -213,20 +213,42 @@ void show_header(const Call& call, const Context& context) {
   context.console.progress("     instant iter relative absolute  worst              active changes     depth");
 }
 
-solver::IterationObserver live_table(const Context& context) {
-  if (context.console.verbosity() == Verbosity::quiet) return {};
-  return [&context](const solver::IterationReport& report) {
-    if (!report.event.empty()) {
-      context.console.progress("  " + report.event);
-      return;
-    }
+// The live table. Iterations of a step count from 1 anew where the geometry of contact has been updated.
+class LiveTable {
+ public:
+  explicit LiveTable(const Console& console) : console_(console) {}
+
+  void show(const solver::IterationReport& report) {
+    const bool begins_anew = report.event.empty() && report.iteration == 1 && report.instant == instant_;
+    instant_.reset();
+    if (!report.event.empty()) return show_event(report);
+    instant_ = report.instant;
+    if (begins_anew && !explained_)
+      console_.progress("  * contact is paired on the surfaces as they have moved, iterations begin anew");
+    explained_ = explained_ || begins_anew;
     // Where nothing is loaded there is no share of the loads.
     const std::string relative = report.relative_residual < 0.0 ? "-" : fmt::format("{:.1e}", report.relative_residual);
     const std::string depth = report.penetration ? fmt::format("{:.2e}", *report.penetration) : "-";
-    context.console.progress(fmt::format("  {:>10.5g} {:>4} {:>8} {:>8.1e}  {:<18} {:>6} {:>7} {:>9}", report.instant,
-                                         report.iteration, relative, report.absolute_residual, report.worst,
-                                         report.active_conditions, report.contact_changes, depth));
-  };
+    console_.progress(fmt::format("{} {:>10.5g} {:>4} {:>8} {:>8.1e}  {:<18} {:>6} {:>7} {:>9}",
+                                  begins_anew ? '*' : ' ', report.instant, report.iteration, relative,
+                                  report.absolute_residual, report.worst, report.active_conditions,
+                                  report.contact_changes, depth));
+  }
+
+ private:
+  void show_event(const solver::IterationReport& report) const {
+    console_.progress("  " + report.event);
+    if (!report.detail.empty()) console_.detail("    " + report.detail);
+  }
+
+  const Console& console_;
+  std::optional<double> instant_;  ///< of the iteration before
+  bool explained_ = false;
+};
+
+solver::IterationObserver live_table(const Context& context) {
+  if (context.console.verbosity() == Verbosity::quiet) return {};
+  return [table = LiveTable(context.console)](const solver::IterationReport& report) mutable { table.show(report); };
 }
 
 // What the last iteration of a step leaves of the equations; the initial state has had none.

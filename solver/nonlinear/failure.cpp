@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -153,6 +155,31 @@ std::string worst_place(const Eigen::VectorXd& residual, const Elimination& elim
 bool is_failure_of_step(std::string_view code) {
   return code == "no-convergence" || code == "contact-cycling" || code == "singular-matrix" ||
          code == "integration-failure";
+}
+
+std::string_view short_cause(std::string_view code) {
+  static constexpr std::pair<std::string_view, std::string_view> causes[] = {
+      {"no-convergence", "no convergence"},
+      {"contact-cycling", "contact unsettled"},
+      {"singular-matrix", "singular"},
+      {"integration-failure", "a law fails"},
+      {"residual-diverges", "residual diverges"},
+      {"residual-too-large", "residual too large"},
+      {"increment-too-large", "change too large"},
+      {"contact-too-deep", "contact too deep"}};
+  const auto found = std::ranges::find(causes, code, &std::pair<std::string_view, std::string_view>::first);
+  return found == std::end(causes) ? code : found->second;
+}
+
+Error cut_no_further(const Error& error, int times) {
+  if (times == 0) return error;
+  std::string message = error.what();
+  message.insert(
+      std::min(message.find('\n'), message.size()),
+      fmt::format("; the step has been cut {} time{}, and may not be cut again", times, times == 1 ? "" : "s"));
+  return Error(error.code(), message,
+               error.hint() + (error.hint().empty() ? "" : "; or ") +
+                   "let steps be cut further (SUBD_NIVEAU, SUBD_PAS_MINI of ECHEC, PAS_MINI)");
 }
 
 Error advised(const Error& error, const StaticProblem& problem) {

@@ -18,6 +18,12 @@ std::string worst_place(const Eigen::VectorXd& residual, const Elimination& elim
 /// Of the code of an error: what a shorter step may overcome.
 bool is_failure_of_step(std::string_view code);
 
+/// The same codes, and those of the events of a plan, in a word or two.
+std::string_view short_cause(std::string_view code);
+
+/// The error of a step that has been cut so many times, and may not be again.
+Error cut_no_further(const Error& error, int times);
+
 /// An error as it is, but of a singular stiffness with what helps bodies that only inequalities hold: these are solved
 /// on the compliance of bodies that stand without them.
 Error advised(const Error& error, const StaticProblem& problem);

@@ -152,14 +152,16 @@ struct IterationReport {
   int contact_changes = 0;
   /// How deep contact and unilateral conditions are passed at worst (a length, as a rule).
   std::optional<double> penetration;
-  std::string event;  ///< not empty: no iteration, but what happened to the step ("the step is cut into 4")
+  std::string event;   ///< not empty: no iteration, but what happened to the step ("step to 1 fails ...")
+  std::string detail;  ///< of an event: more of it, for those who want to know
 };
 
 /// A line that tells what happened to the step to an instant.
-inline IterationReport event_of_step(double instant, std::string text) {
+inline IterationReport event_of_step(double instant, std::string text, std::string detail = {}) {
   IterationReport report;
   report.instant = instant;
   report.event = std::move(text);
+  report.detail = std::move(detail);
   return report;
 }
 

@@ -63,7 +63,8 @@ class StaticRun {
   /// The number of iterations; nothing when the step has failed, or does what it must not, and is cut. Throws what a
   /// step that cannot be cut throws.
   std::optional<int> try_step(double instant, StepSequence& sequence);
-  std::nullopt_t take_again(double instant, const Progress& before, const StepSequence& sequence, std::string_view why);
+  std::nullopt_t take_again(double instant, const Progress& before, const StepSequence& sequence);
+  void tell_failure(double instant, const Error& error, std::string_view then) const;
   void take_back(const Progress& before);
   /// Which points of contact are closed, one after the other.
   std::vector<char> closed_points() const;

@@ -20,27 +20,36 @@ std::optional<int> StaticRun::try_step(double instant, StepSequence& sequence) {
     watch_->check_increment(instant, [&] { return fields_now(instant); });
     if (mixed_) check_depth(plan_->event(StepEventKind::depth), instant, mixed_->penetration(now_.state.u, true));
     if (!refines_collision(closed_before, sequence)) return iterations;
-    return take_again(instant, before, sequence, "meets a change of contact");
+    return take_again(instant, before, sequence);
   } catch (const Error& error) {
     const StepEvent* event = watch_->event_behind(error.code());
     if (event == nullptr && !is_failure_of_step(error.code())) throw advised(error, problem_);
     if (event ? !event->cutting || !sequence.cut(*event->cutting, watch_->share_of_step()) : !sequence.cut()) {
-      if (event) throw;
+      if (event) throw cut_no_further(error, sequence.depth());
       // In a part of a step contact has been settled already.
-      if (sequence.is_part()) throw advised(error, problem_);
+      if (sequence.is_part()) throw cut_no_further(advised(error, problem_), sequence.depth());
       return solve_as_last_resort(instant, before, error);
     }
-    return take_again(instant, before, sequence, event ? fmt::format("has failed ({})", error.code()) : "has failed");
+    take_back(before);
+    tell_failure(instant, error, fmt::format("cut, on to {:.6g}", sequence.target()));
+    return std::nullopt;
   }
 }
 
-std::nullopt_t StaticRun::take_again(double instant, const Progress& before, const StepSequence& sequence,
-                                     std::string_view why) {
+std::nullopt_t StaticRun::take_again(double instant, const Progress& before, const StepSequence& sequence) {
   take_back(before);
   if (observer_)
-    observer_(event_of_step(
-        instant, fmt::format("the step to {:.6g} {} and is cut: on to {:.6g}", instant, why, sequence.target())));
+    observer_(event_of_step(instant, fmt::format("step to {:.6g} meets a change of contact: cut, on to {:.6g}", instant,
+                                                 sequence.target())));
   return std::nullopt;
+}
+
+void StaticRun::tell_failure(double instant, const Error& error, std::string_view then) const {
+  if (!observer_) return;
+  const std::string message = error.what();
+  observer_(event_of_step(instant,
+                          fmt::format("step to {:.6g} fails ({}): {}", instant, short_cause(error.code()), then),
+                          message.substr(0, message.find('\n'))));
 }
 
 std::vector<char> StaticRun::closed_points() const {
@@ -77,8 +86,8 @@ int StaticRun::solve_jointly_or_settled(double instant, const Progress& before, 
 int StaticRun::solve_settled(double instant, const Progress& before) {
   take_back(before);
   if (observer_)
-    observer_(event_of_step(
-        instant, fmt::format("the step to {:.6g} starts again, with contact settled within each iteration", instant)));
+    observer_(event_of_step(instant,
+                            fmt::format("step to {:.6g}: again, with contact settled within each iteration", instant)));
   mixed_->iterate_jointly(false);
   const OnExit as_before([&] { mixed_->iterate_jointly(true); });
   return solve_from_either_side(instant, before);
@@ -102,11 +111,9 @@ int StaticRun::solve_from_either_side(double instant, const Progress& before) {
     if (const auto iterations = solve_the_other_way(instant, before, error)) return *iterations;
     const bool may_unload = assembler_.has_memory() && options_.tangent.prediction == TangentKind::tangent;
     if (!may_unload || !is_failure_of_step(error.code())) throw;
+    take_back(before);
+    tell_failure(instant, error, "again from an elastic prediction");
   }
-  take_back(before);
-  if (observer_)
-    observer_(event_of_step(
-        instant, fmt::format("the step to {:.6g} has failed and starts again from an elastic prediction", instant)));
   newton_.predict_with(TangentKind::elastic);
   const OnExit as_before([&] { newton_.predict_with(options_.tangent.prediction); });
   return solve_and_check(instant);
@@ -125,9 +132,7 @@ int StaticRun::solve_on_stiffer_supports(double instant, const Progress& before,
 std::optional<int> StaticRun::solve_the_other_way(double instant, const Progress& before, const Error& failure) {
   if (!path_ || !plan_->tries_other_solution || !is_failure_of_step(failure.code())) return std::nullopt;
   take_back(before);
-  if (observer_)
-    observer_(event_of_step(
-        instant, fmt::format("the step to {:.6g} has failed and is tried with the other intensity", instant)));
+  tell_failure(instant, failure, "again with the other intensity");
   path_->take_other_solution(true);
   const OnExit as_before([&] { path_->take_other_solution(false); });
   try {
@@ -145,13 +150,14 @@ int StaticRun::solve_and_check(double instant) {
   return iterations;
 }
 
-/// What settles contact knows no instants.
+/// What settles contact knows no instants, and laws at points know none either.
 int StaticRun::solve_telling_when(double instant) {
   try {
     return solve_step(instant);
   } catch (const Error& error) {
     const std::string message = error.what();
-    if (error.code() != "contact-cycling" || message.find(" t = ") != std::string::npos) throw;
+    const bool knows_none = error.code() == "contact-cycling" || error.code() == "integration-failure";
+    if (!knows_none || message.find(" t = ") != std::string::npos) throw;
     throw Error(error.code(), fmt::format("{}, in the step to t = {:.6g}", message, instant), error.hint());
   }
 }

@@ -106,7 +106,9 @@ class StepSequence {
   /// Where the next step goes to.
   double target() const;
   /// Whether the next step is a part of one that was cut.
-  bool is_part() const { return pending_.back().depth > 0; }
+  bool is_part() const { return depth() > 0; }
+  /// How often the step towards the next target has been cut.
+  int depth() const { return pending_.back().depth; }
   /// It has converged, in so many iterations and with such largest changes of the watched fields, one a rule that
   /// watches one. Throws Error `too-many-steps` beyond StepAdaptation::most_steps.
   void accept(int iterations, std::span<const double> changes = {});
