@@ -52,7 +52,9 @@ class Writer {
     line("  category   {}", page.category);
     products(page);
     reuse(page);
-    line("  supported  {}", page.supported ? "yes" : "not yet: using it is an error");
+    line("  supported  {}", page.supported           ? "yes"
+                            : only_writes(page.role) ? "not yet: using it is an alarm, and it is left out"
+                                                     : "not yet: using it is an error");
     if (!page.note.empty()) line("  note       {}", page.note);
     level(page.inside);
     example(page);

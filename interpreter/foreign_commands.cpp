@@ -13,7 +13,7 @@ namespace comma::interpreter {
 namespace {
 
 /// Sorted.
-constexpr std::array<std::string_view, 237> foreign = {"AFFE_CHAR_ACOU",
+constexpr std::array<std::string_view, 236> foreign = {"AFFE_CHAR_ACOU",
                                                        "AFFE_CHAR_ACOU_F",
                                                        "AFFE_CHAR_THER",
                                                        "AFFE_CHAR_THER_F",
@@ -172,7 +172,6 @@ constexpr std::array<std::string_view, 237> foreign = {"AFFE_CHAR_ACOU",
                                                        "MACR_ECRE_CALC",
                                                        "MACR_ELEM_DYNA",
                                                        "MACR_ELEM_STAT",
-                                                       "MACR_INFO_MAIL",
                                                        "MACR_LIGN_COUPE",
                                                        "MACR_RECAL",
                                                        "MACR_SPECTRE",

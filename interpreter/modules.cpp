@@ -123,6 +123,27 @@ Members members_of_code_aster() {
   return members;
 }
 
+/// Code_Aster's alarms, which comma does not have, are neither hidden nor shown.
+Value ignore(Evaluator&, const CallArguments&) { return Value(); }
+
+/// UTMESS(kind, id, ...): a message of Code_Aster, whose words comma does not have; of the kinds E, F and S it ends
+/// what is done.
+Value show_message(Evaluator& evaluator, const CallArguments& arguments) {
+  if (arguments.size() < 2 || !arguments[0].is_text() || !arguments[1].is_text())
+    raise(ErrorKind::type, "UTMESS takes the kind of a message and its name", "as in UTMESS('A', 'CATAMESS_55')");
+  const std::string& kind = arguments[0].as_text();
+  const std::string line = fmt::format("<{}> <{}>", kind, arguments[1].as_text());
+  if (kind.find_first_of("EFSZ") != std::string::npos) raise(ErrorKind::aster, "UTMESS " + line);
+  evaluator.print(line + "\n");
+  return Value();
+}
+
+Members members_of_messages() {
+  return {{"UTMESS", function_value("UTMESS", show_message)},
+          {"MasquerAlarme", function_value("MasquerAlarme", ignore)},
+          {"RetablirAlarme", function_value("RetablirAlarme", ignore)}};
+}
+
 Members members_of_commands() {
   Members members = exceptions_of_commands();
   members.emplace("_F", *builtin_value("_F"));
@@ -239,10 +260,13 @@ constexpr std::array modules = {
     ModuleRow{"code_aster.Commands", members_of_commands, true},
     ModuleRow{"code_aster.Cata.Syntax", members_of_commands},
     ModuleRow{"code_aster.Utilities", nothing},
+    ModuleRow{"code_aster.Messages", members_of_messages},
+    ModuleRow{"Utilitai.Utmess", members_of_messages},
     ModuleRow{"aster", exceptions_of_commands},
     ModuleRow{"aster_core", nothing},
     ModuleRow{"Cata.cata", members_of_commands, true},
     ModuleRow{"Cata", members_of_commands, true},
+    ModuleRow{"Accas", members_of_commands},
 };
 
 }  // namespace

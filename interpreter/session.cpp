@@ -55,6 +55,9 @@ Value Session::call(const CommandCall& written, bool eager) {
     return Value();
   }
 
+  Value worth;
+  if (const auto given = worths_.find(written.name); given != worths_.end())
+    worth = checked.complete ? given->second(checked.call) : Value::unknown();
   ConceptPtr product = checked.call.result;
   if (!product && !checked.product_type.empty())
     product = make_concept(checked.product_type, written.target, written.name_span);
@@ -77,7 +80,7 @@ Value Session::call(const CommandCall& written, bool eager) {
       throw;
     }
   }
-  return product ? Value(product) : Value();
+  return product ? Value(product) : worth;
 }
 
 // What acts at once may open a file that a command before it names, which itself waits for what is written before.

@@ -56,6 +56,11 @@ class Session : public CommandHost {
   void act_at_once(std::string command, std::function<void(const Call&)> action) {
     immediate_[std::move(command)] = std::move(action);
   }
+  /// What a call that makes no concept is worth while the file is read, before it runs (DEFI_FICHIER: a number). The
+  /// function may complete the call, and throw DiagnosticError.
+  void give_at_once(std::string command, std::function<Value(Call&)> worth) {
+    worths_[std::move(command)] = std::move(worth);
+  }
   /// See Executor::prepare_with.
   void prepare_with(const CommandTable& preparations) { executor_.prepare_with(preparations); }
   /// Looks at each call before anything is solved; see Executor::run_cheap.
@@ -85,6 +90,7 @@ class Session : public CommandHost {
   CommandGraph graph_;
   Executor executor_;
   std::map<std::string, std::function<void(const Call&)>, std::less<>> immediate_;
+  std::map<std::string, std::function<Value(Call&)>, std::less<>> worths_;
   AssertionSink assertion_sink_;
   CallCheck call_check_;
   std::function<void()> look_ahead_;

@@ -24,6 +24,12 @@ using interpreter::Span;
 
 namespace {
 
+std::set<int> units_of(const std::vector<ExportFile>& files) {
+  std::set<int> units;
+  for (const ExportFile& file : files) units.insert(file.unit);
+  return units;
+}
+
 // Codes of a computation that was well put and did not succeed, and of what is the machine's or comma's own fault; any
 // other error says that the file is wrong.
 constexpr std::array<std::string_view, 17> computation_codes = {"no-convergence",
@@ -78,6 +84,7 @@ StudyRun::StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions
       context_{Files(study_.command_files.front(), study_.files, fs::current_path()), Console(verbosity), diagnostics_},
       commands_(make_command_table(context_)),
       preparations_(make_preparation_table(context_)),
+      units_(units_of(study_.files)),
       catalogue_(catalogue_blobs()),
       session_(catalogue_, commands_, diagnostics_, options) {
   context_.only_checks = options.check_only;
@@ -90,6 +97,7 @@ StudyRun::StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions
   });
   session_.act_at_once("INCLUDE", [this](const interpreter::Call& call) { include(call); });
   session_.act_at_once("POURSUITE", [this](const interpreter::Call& call) { go_on(call); });
+  session_.give_at_once("DEFI_FICHIER", [this](interpreter::Call& call) { return units_.number_of(call); });
   if (!options.check_only) session_.look_ahead_with([this] { look_ahead(); });
   session_.set_output([this](std::string_view text) {
     if (!unreadable_) context_.console.print(text);

@@ -9,6 +9,7 @@
 #include "commands/cli/export_file.hpp"
 #include "commands/cli/report.hpp"
 #include "commands/context.hpp"
+#include "commands/unit_numbers.hpp"
 #include "interpreter/ast.hpp"
 #include "interpreter/evaluator.hpp"
 #include "interpreter/meter.hpp"
@@ -48,6 +49,7 @@ class StudyRun {
   interpreter::Diagnostics diagnostics_;
   Context context_;
   interpreter::CommandTable commands_, preparations_;
+  UnitNumbers units_;
   interpreter::Catalogue catalogue_;
   interpreter::Session session_;
   std::unique_ptr<interpreter::Evaluator> evaluator_;

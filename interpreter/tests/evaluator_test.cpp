@@ -249,6 +249,15 @@ std::vector<std::string> verdicts_of(const std::string& text, bool solves = true
 
 }  // namespace
 
+TEST_CASE("Modules of older files bring _F, and messages that comma has no words for") {
+  const Run run(
+      "from Accas import _F\nfrom Utilitai.Utmess import UTMESS, MasquerAlarme, RetablirAlarme\n"
+      "print(_F(A=1)['A'])\nMasquerAlarme('CALCULEL_2')\nUTMESS('I', 'TEST0_1', valk='a')\n"
+      "try:\n    UTMESS('F', 'TEST0_2')\nexcept Exception as error:\n    print(error)\n");
+  CHECK(run.output == "1\n<I> <TEST0_1>\nUTMESS <F> <TEST0_2>\n");
+  CHECK(run.diagnostics.items().empty());
+}
+
 TEST_CASE("hasattr of a concept asks what it has, and does not know while it is not there", "[evaluator]") {
   auto host = std::make_unique<RecordingHost>();
   host->data = std::make_shared<Counted>();
