@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
+#include "commands/alarms/scene_alarms.hpp"
 #include "commands/analysis/problem_building.hpp"
 #include "commands/analysis/same_mesh.hpp"
 #include "commands/commands.hpp"
@@ -182,14 +184,16 @@ solver::Model deformed(const Call& call, const solver::Model& model) {
   return moved;
 }
 
-void list_masses(Table& table, const Call& call) {
+void list_masses(Table& table, const Call& call, Context& context) {
   const solver::StaticProblem problem = named_problem(call);
   const solver::VariableState state;
   const bool moved = call.text("GEOMETRIE") == "DEFORMEE";
   const solver::Model model = moved ? deformed(call, *problem.model) : *problem.model;
   const solver::FieldInput input{model, *problem.materials, *problem.properties, state};
+  std::set<int> counted;
   for (const Keywords& occurrence : call.factors("MASS_INER")) {
     for (const Part& part : parts_of(call, occurrence, *problem.model->mesh)) {
+      counted.insert(part.cells.begin(), part.cells.end());
       const solver::MassInertia found = solver::mass_inertia(input, std::span<const int>(part.cells));
       Row row = place_columns(part);
       row.emplace_back("MASSE", found.mass);
@@ -201,6 +205,7 @@ void list_masses(Table& table, const Call& call) {
       table.add_row(row);
     }
   }
+  warn_of_missing_masses(call, problem, counted, context);
 }
 
 // --- integrals
@@ -401,7 +406,7 @@ Product post_elem(const Call& call, Context& context) {
   if (call.has("ENER_TOTALE")) list_energies(table, call, context.diagnostics, "ENER_TOTALE", "ETOT_ELEM");
   for (const char* keyword : {"INDIC_SEUIL", "INDIC_ENER"})
     if (call.has(keyword)) list_indicators(table, call, context.diagnostics, keyword);
-  if (call.has("MASS_INER")) list_masses(table, call);
+  if (call.has("MASS_INER")) list_masses(table, call, context);
   if (call.has("INTEGRALE")) list_integrals(table, call, context.diagnostics);
   if (call.has("NORME")) list_norms(table, call, context.diagnostics);
   if (call.has("VOLUMOGRAMME")) list_distributions(table, call, context.diagnostics);

@@ -79,6 +79,16 @@ bool lacks_density(const solver::StaticProblem& problem, int cell) {
   return elasticity != nullptr && std::visit([](const auto& each) { return is_missing(each.density); }, *elasticity);
 }
 
+void warn_of_no_density(const interpreter::Call& call, const solver::StaticProblem& problem, const std::set<int>& cells,
+                        const char* use, const char* effect, Context& context) {
+  if (cells.empty()) return;
+  context.diagnostics.alarm(
+      "no-density",
+      fmt::format("{}: {} {} cell{} whose material has no RHO, {} the first: {}", call.command, use, cells.size(),
+                  cells.size() == 1 ? "" : "s", problem.model->mesh->cell_name(*cells.begin()), effect),
+      call.span, "give RHO in DEFI_MATERIAU (ELAS)");
+}
+
 void warn_of_missing_density(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
   std::set<int> weightless;
   const auto look_at = [&](const std::vector<int>& cells) {
@@ -91,14 +101,7 @@ void warn_of_missing_density(const interpreter::Call& call, const solver::Static
       for (const solver::RotationLoad& each : applied.load->rotations) look_at(each.cells);
     }
   }
-  if (weightless.empty()) return;
-  context.diagnostics.alarm(
-      "no-density",
-      fmt::format(
-          "{}: PESANTEUR or ROTATION acts on {} cell{} whose material has no RHO, {} the first: no force comes of it",
-          call.command, weightless.size(), weightless.size() == 1 ? "" : "s",
-          problem.model->mesh->cell_name(*weightless.begin())),
-      call.span, "give RHO in DEFI_MATERIAU (ELAS)");
+  warn_of_no_density(call, problem, weightless, "PESANTEUR or ROTATION acts on", "no force comes of it", context);
 }
 
 /// A variable of which a material that is constant takes a strain or nothing.
@@ -395,6 +398,14 @@ void warn_of_scene(const interpreter::Call& call, const solver::StaticProblem& p
   warn_of_missing_data(call, problem, context);
   warn_of_repeated_loads(call, context);
   warn_of_other_models(call, *problem.model, context);
+}
+
+void warn_of_missing_masses(const interpreter::Call& call, const solver::StaticProblem& problem,
+                            const std::set<int>& cells, Context& context) {
+  std::set<int> weightless;
+  std::ranges::copy_if(cells, std::inserter(weightless, weightless.end()),
+                       [&](int cell) { return lacks_density(problem, cell); });
+  warn_of_no_density(call, problem, weightless, "MASS_INER counts", "they add no mass", context);
 }
 
 void warn_of_loads_at_the_start(const interpreter::Call& call, const solver::StaticProblem& problem, double instant,

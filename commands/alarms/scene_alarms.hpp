@@ -2,6 +2,8 @@
 // that is likely not to be what is meant.
 #pragma once
 
+#include <set>
+
 #include "commands/context.hpp"
 #include "interpreter/call.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
@@ -13,17 +15,22 @@ namespace comma::commands {
 /// more than once), `other-model` (a load, contact or properties that were made on a model of other elements).
 void warn_of_scene(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
 
-/// Of MECA_STATIQUE, which computes `instant` where the file names none: alarm `no-load` where functions of time make all
-/// loads vanish there.
+/// Of POST_ELEM: alarm `no-density` where cells whose masses are asked for have a material without one.
+void warn_of_missing_masses(const interpreter::Call& call, const solver::StaticProblem& problem,
+                            const std::set<int>& cells, Context& context);
+
+/// Of MECA_STATIQUE, which computes `instant` where the file names none: alarm `no-load` where functions of time make
+/// all loads vanish there.
 void warn_of_loads_at_the_start(const interpreter::Call& call, const solver::StaticProblem& problem, double instant,
                                 Context& context);
 
-/// The same as warn_of_scene(), and of STAT_NON_LINE: `strained-start` (command variables strain the body at `first_instant` already,
-/// without an initial state), `no-behaviour` (cells that COMPORTEMENT leaves out), `initial-strains` (PRE_EPSI of
-/// materials that remember), and of what ETAT_INIT lacks `no-initial-field`, `partial-state`, `forgotten-flow`,
-/// `no-internal-variables`, `released-points` (a contact with GLISSIERE goes on from fields), `other-variables` (a cell
-/// goes on with a law of other internal variables), `odd-variables` (more of them than the law has, or a cumulated
-/// plastic strain below zero). `before`: the laws of the initial state; null: elasticity, or not known.
+/// The same as warn_of_scene(), and of STAT_NON_LINE: `strained-start` (command variables strain the body at
+/// `first_instant` already, without an initial state), `no-behaviour` (cells that COMPORTEMENT leaves out),
+/// `initial-strains` (PRE_EPSI of materials that remember), and of what ETAT_INIT lacks `no-initial-field`,
+/// `partial-state`, `forgotten-flow`, `no-internal-variables`, `released-points` (a contact with GLISSIERE goes on from
+/// fields), `other-variables` (a cell goes on with a law of other internal variables), `odd-variables` (more of them
+/// than the law has, or a cumulated plastic strain below zero). `before`: the laws of the initial state; null:
+/// elasticity, or not known.
 void warn_of_nonlinear_scene(const interpreter::Call& call, const solver::StaticProblem& problem, double first_instant,
                              const solver::BehaviourOfCells* before, Context& context);
 
