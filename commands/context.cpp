@@ -16,6 +16,11 @@ void Context::write(const std::filesystem::path& path, std::string_view text) {
   if (first) console.progress("  writes " + path.string());
 }
 
+void Context::write(int unit, const std::string& extension, int default_unit, std::string_view text) {
+  if (files.is_terminal(unit)) return console.print(text);
+  write(files.output(unit, extension, default_unit), text);
+}
+
 void Context::begin_anew_if_released(int unit, const std::filesystem::path& path) {
   if (released_units.erase(unit) == 0) return;
   written.erase(path.string());

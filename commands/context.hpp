@@ -74,6 +74,9 @@ struct Context {
   /// Appends text to the output of a unit; the first time in a run the file starts anew.
   void write(const std::filesystem::path& path, std::string_view text);
 
+  /// The same to the output of a unit (see Files::output), or to the terminal.
+  void write(int unit, const std::string& extension, int default_unit, std::string_view text);
+
   /// Of IMPR_RESU: starts the output of a unit anew if the file has released the unit (DEFI_FICHIER).
   void begin_anew_if_released(int unit, const std::filesystem::path& path);
 

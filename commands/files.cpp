@@ -196,6 +196,11 @@ fs::path Files::output(int unit, const std::string& extension, int default_unit)
   return written_[unit] = safe_output(named(plain ? "." : numbered));
 }
 
+bool Files::is_terminal(int unit) const {
+  const auto is_file = [&](const ExportFile& file) { return file.unit == unit && file.output; };
+  return unit == message_unit && !named_.contains(unit) && std::ranges::none_of(exported_, is_file);
+}
+
 void Files::name_output(int unit, const std::string& name) {
   if (name.empty()) {
     named_.erase(unit);

@@ -13,6 +13,8 @@ namespace comma::commands {
 
 /// Where commands write text that name no unit.
 inline constexpr int text_unit = 8;
+/// Where Code_Aster writes its messages.
+inline constexpr int message_unit = 6;
 
 /// One line `F type name D|R|DR|RC unit` of an .export.
 struct ExportFile {
@@ -50,6 +52,10 @@ class Files {
   /// Throws DiagnosticError `overwritten-input` where that file is read by the study and was not written by it,
   /// `forbidden-file` where it is a link.
   std::filesystem::path output(int unit, const std::string& extension, int default_unit) const;
+
+  /// Whether what is written to the unit is shown where the run tells what it does: unit 6, which is Code_Aster's file
+  /// of messages, unless the .export or DEFI_FICHIER have a file for it.
+  bool is_terminal(int unit) const;
 
   /// From now on the file of the unit has this name (of an output: unless the .export has one for it); an empty name
   /// gives the unit back. Throws DiagnosticError `unsupported` for a name that leads out of the current folder.

@@ -168,13 +168,12 @@ Product impr_fonction(const Call& call, Context& context) {
   const std::string& format = call.text("FORMAT");
   const int unit = static_cast<int>(call.integer("UNITE"));
   if (format == "TABLEAU") {
-    context.write(context.files.output(unit, "resu", 8), as_columns(call, drawing));
+    context.write(unit, "resu", 8, as_columns(call, drawing));
   } else if (format == "XMGRACE") {
-    context.write(context.files.output(unit, "agr", 29), grace_file(drawing));
+    context.write(unit, "agr", 29, grace_file(drawing));
   } else {
-    context.write(context.files.output(unit, "dogr", 25), curve_columns(drawing));
-    context.write(context.files.output(static_cast<int>(call.integer("UNITE_DIGR")), "digr", 26),
-                  drawing_description(drawing));
+    context.write(unit, "dogr", 25, curve_columns(drawing));
+    context.write(static_cast<int>(call.integer("UNITE_DIGR")), "digr", 26, drawing_description(drawing));
   }
   return nullptr;
 }

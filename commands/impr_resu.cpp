@@ -493,7 +493,8 @@ Product impr_resu(const Call& call, Context& context) {
   const std::string& word = call.text("FORMAT");
   const Format format = format_named(word);
   const int unit = call.has("UNITE") ? static_cast<int>(call.integer("UNITE")) : format.unit;
-  const auto path = context.files.output(unit, format.extension, format.unit);
+  const bool is_shown = word == "RESULTAT" && context.files.is_terminal(unit);
+  const auto path = is_shown ? std::filesystem::path() : context.files.output(unit, format.extension, format.unit);
   context.begin_anew_if_released(unit, path);
   check_model(call, word);
   for (const Keywords& print : call.factors("RESU")) {
@@ -513,8 +514,12 @@ Product impr_resu(const Call& call, Context& context) {
     context.write(path, gmsh_text(call, context.diagnostics));
     return nullptr;
   }
-  for (const Keywords& print : call.factors("RESU"))
-    context.write(path, word == "ASTER" ? mesh_text(call, print) : text_of(print));
+  for (const Keywords& print : call.factors("RESU")) {
+    if (is_shown)
+      context.console.print(text_of(print));
+    else
+      context.write(path, word == "ASTER" ? mesh_text(call, print) : text_of(print));
+  }
   return nullptr;
 }
 

@@ -95,7 +95,7 @@ Product impr_table(const Call& call, Context& context) {
     if (call.has("NOM_PARA")) page = with_columns(page, columns_of(page, call));
     text += page_text(page, call, layout);
   }
-  context.write(context.files.output(static_cast<int>(call.integer("UNITE")), "resu", result_unit), text);
+  context.write(static_cast<int>(call.integer("UNITE")), "resu", result_unit, text);
   return nullptr;
 }
 

@@ -45,4 +45,25 @@ TEST_CASE("Lines are in the log before the run ends") {
   CHECK(after_text == 12);
 }
 
+TEST_CASE("What is written to unit 6 is shown, unless a file stands for it") {
+  comma::interpreter::Diagnostics diagnostics;
+  const fs::path folder = fs::temp_directory_path() / ("comma_units_" + std::to_string(getpid()));
+  fs::create_directory(folder);
+  const ExportFile messages{"mess", folder / "a.mess", false, true, 6};
+  std::uintmax_t shown = 0, shown_beside_file = 0;
+  {
+    const Redirected log;
+    Context context{Files("a.comm", {}, folder), Console(Verbosity::quiet), diagnostics};
+    context.write(6, "resu", 8, "a table\n");
+    shown = log.written();
+    Context exported{Files("a.comm", {messages}, folder), Console(Verbosity::quiet), diagnostics};
+    exported.write(6, "resu", 8, "a table\n");
+    shown_beside_file = log.written();
+  }
+  CHECK(shown == 8);
+  CHECK(shown_beside_file == 8);
+  CHECK(fs::file_size(folder / "a.mess") == 8);
+  fs::remove_all(folder);
+}
+
 }  // namespace context_test
