@@ -103,6 +103,7 @@ struct KeywordPage {
   bool required = false;
   bool supported = true;
   std::string no_effect;    ///< why it cannot change a result of comma, or empty
+  bool missed = false;      ///< with `no_effect`: it asks for what comma does not give, and an alarm says so
   std::string counts_when;  ///< a condition as of a block, without which it is read by nothing: an alarm then; or empty
   std::shared_ptr<const Expression> counts;
   std::optional<Value> default_value;

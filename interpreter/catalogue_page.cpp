@@ -104,6 +104,7 @@ KeywordPage keyword_from(std::string_view name, const Packed& packed) {
   keyword.required = flag_at(packed, "required", false);
   keyword.supported = flag_at(packed, "supported", true);
   keyword.no_effect = text_at(packed, "no_effect");
+  keyword.missed = flag_at(packed, "missed", false);
   keyword.counts_when = text_at(packed, "counts_when");
   if (!keyword.counts_when.empty()) keyword.counts = condition_from(keyword.counts_when);
   const Packed* standard = packed.find("default");

@@ -319,8 +319,16 @@ class LevelCheck {
     Keyword item{keyword.name, Value(), {}, argument.name_span, argument.value_span, true};
     const bool right =
         keyword.is_factor() ? take_factor(keyword, argument, label, item) : take_value(keyword, argument, label, item);
+    if (right && keyword.missed) warn_of_missed(keyword, label, item);
     if (right) result_.items.push_back(std::move(item));
     context_.quiet = was_quiet;
+  }
+
+  /// What asks for something that comma does not give.
+  void warn_of_missed(const KeywordPage& keyword, const std::string& label, const Keyword& item) {
+    if (keyword.default_value && keyword.default_value->repr() == item.value.repr()) return;
+    context_.diagnostics.alarm("idle-keyword", fmt::format("{} has no effect: {}", label, keyword.no_effect),
+                               item.name_span, "leave it out");
   }
 
   bool take_value(const KeywordPage& keyword, const Argument& argument, const std::string& label, Keyword& item) {

@@ -232,7 +232,9 @@ class PageBuilder {
     if (json.contains("unsupported_words")) add_unsupported_words(json);
     allow(json, where, {"type",        "doc",      "unit",     "aliases", "min",      "max",       "words",
                         "above",       "at_least", "below",    "at_most", "required", "supported", "no_effect",
-                        "counts_when", "default",  "keywords", "rules",   "blocks",   "further"});
+                        "counts_when", "default",  "keywords", "rules",   "blocks",   "further",   "missed"});
+    if (json.contains("missed") && !json.contains("no_effect"))
+      refuse(where, "missed is said of a keyword that has no_effect");
     demand(json, where, {"type", "doc"});
     if (json["type"] == "factor" && !json.contains("keywords") && !json.contains("blocks"))
       refuse(where, "a factor lists its keywords ('keywords: {}' when it has none)");
