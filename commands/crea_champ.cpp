@@ -222,7 +222,7 @@ FieldPtr from_functions(const Call& call, const FieldType& type) {
     arguments.push_back(&number_field(handle, call, "CHAM_PARA").field);
   auto product = std::make_shared<FieldConcept>();
   take_support(*product, which);
-  product->field = solver::evaluate(which.field, value_functions(which), arguments, type.quantity_name());
+  product->field = solver::evaluate(*which.mesh, which.field, value_functions(which), arguments, type.quantity_name());
   return product;
 }
 

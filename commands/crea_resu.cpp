@@ -28,7 +28,7 @@ solver::Field at_instant(const FieldConcept& data, double instant, const interpr
   if (std::holds_alternative<solver::NodalField>(data.field))
     known.push_back(&coordinates.emplace(solver::node_coordinates(*data.mesh)));
   const std::string quantity = std::visit([](const auto& field) { return field.quantity; }, data.field);
-  solver::Field made = solver::evaluate(data.field, value_functions(data), known, quantity);
+  solver::Field made = solver::evaluate(*data.mesh, data.field, value_functions(data), known, quantity);
   require_finite(made, *data.mesh, "CREA_RESU", span);
   return made;
 }

@@ -166,13 +166,18 @@ class LevelCheck {
     for (const Pending& pending : pending_) {
       if (std::ranges::find(names, pending.name) != names.end()) continue;
       // Where the user may choose names, only one that stands for what must be there is a mistake.
-      std::string meant = nearest(pending.name, level_.further ? missing() : names);
+      std::string meant = of_former_keyword(label_, pending.name);
+      if (meant.empty()) meant = nearest(pending.name, level_.further ? missing() : names);
       if (meant.empty() && !level_.further) meant = only_missing();
-      if (meant.empty() || is_given(meant) || guessed(meant)) continue;
-      given_.push_back({meant, pending.argument->name_span});
-      scope_.values[meant] = Value::unknown();
-      guesses_[pending.name] = meant;
+      if (!meant.empty()) stand_for(pending, meant);
     }
+  }
+
+  void stand_for(const Pending& pending, const std::string& meant) {
+    if (is_given(meant) || guessed(meant)) return;
+    given_.push_back({meant, pending.argument->name_span});
+    scope_.values[meant] = Value::unknown();
+    guesses_[pending.name] = meant;
   }
 
   /// The keywords that the level asks for, by themselves or as one of several, and that are not there.

@@ -178,6 +178,19 @@ int Evaluator::line_of_later_definition(const NameNode& name) const {
   return 0;
 }
 
+/// Whether the statement that the name stands in is the one that gives it a value.
+bool Evaluator::is_made_here(const NameNode& name) const {
+  if (tree_ == nullptr || tree_->file != file_) return false;
+  return std::ranges::any_of(tree_->statements, [&](const StatementPtr& statement) {
+    if (statement->kind != StatementKind::assign || statement->begin > name.begin || statement->end < name.end)
+      return false;
+    const auto& targets = static_cast<const AssignStatement&>(*statement).targets;
+    return std::ranges::any_of(targets, [&](const NodePtr& target) {
+      return target->kind == NodeKind::name && static_cast<const NameNode&>(*target).id == name.id;
+    });
+  });
+}
+
 /// A name is reported once; its later uses belong to the same mistake.
 Value Evaluator::unknown_name(const NameNode& name, bool called) {
   const auto& word = name.id;
@@ -200,6 +213,8 @@ Value Evaluator::unknown_name(const NameNode& name, bool called) {
   if (hint.empty() && !called && in_capitals) hint = fmt::format("a text stands between quotes: '{}'", word);
   if (const int line = line_of_later_definition(name); line > 0)
     hint = fmt::format("it is defined later, in line {}", line);
+  if (!called && is_made_here(name))
+    hint = fmt::format("{} is made here: leave out what goes on from it (reuse=, ETAT_INIT) the first time", word);
   const std::string message = refusal.empty() ? fmt::format("name '{}' is not defined", word)
                                               : fmt::format("'{}' is not part of the command language", word);
   if (reported_names_.contains(word)) return Value::unknown();

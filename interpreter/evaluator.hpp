@@ -61,6 +61,8 @@ class Evaluator {
   Meter& meter() { return meter_; }
   CommandHost& host() { return host_; }
   void print(std::string_view text) { output_(text); }
+  /// What would have given names their values is not there: unknown ones are no errors of their own from here on.
+  void lose_names() { names_lost_ = true; }
 
  private:
   enum class Flow { next, break_, continue_, return_ };
@@ -105,6 +107,7 @@ class Evaluator {
   const Value* math_name(std::string_view name) const;
   Value unknown_name(const NameNode& name, bool called = false);
   int line_of_later_definition(const NameNode& name) const;
+  bool is_made_here(const NameNode& name) const;
   void announce_binding(const NameNode& name);
   void store(const NameNode& name, Value value);
   void assign(const Node& target, const Value& value);

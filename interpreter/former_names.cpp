@@ -11,6 +11,9 @@ using Key = std::pair<std::string_view, std::string_view>;
 constexpr std::string_view in_behaviour = "it belongs to COMPORTEMENT now",
                            in_list = "DEFI_LIST_INST cuts steps now: give its list as LIST_INST",
                            in_contact = "DEFI_CONTACT says this now, and CONTACT= of STAT_NON_LINE takes it",
+                           by_verdict =
+                               "VALE_CALC compares with what was computed before, and VALE_REFE besides with a "
+                               "reference from elsewhere (REFERENCE, PRECISION)",
                            leave_out = "leave it out: it is not needed any more";
 
 const std::map<Key, std::string_view>& keywords() {
@@ -30,6 +33,20 @@ const std::map<Key, std::string_view>& keywords() {
        "CONTRAINTE, DEFORMATION, ENERGIE, CRITERES, VARI_INTERNE, PROPRIETES and FORCE name the fields now"},
       {{"POST_RELEVE_T/ACTION", "CHEMIN"},
        "GROUP_NO names the nodes of the line now: DEFI_GROUP finds them (OPTION='SEGM_DROI_ORDO')"},
+      {{"DEFI_MATERIAU", "DIS_CHOC"}, "DIS_CONTACT gives what RELATION='DIS_CHOC' takes"},
+      {{"TEST_RESU/RESU", "VALE"}, by_verdict},
+      {{"TEST_RESU/CHAM_NO", "VALE"}, by_verdict},
+      {{"TEST_RESU/CHAM_ELEM", "VALE"}, by_verdict},
+      {{"TEST_TABLE", "VALE"}, by_verdict},
+      {{"TEST_FONCTION/VALEUR", "VALE"}, by_verdict},
+      {{"TEST_RESU/RESU", "VALE_R"}, by_verdict},
+      {{"TEST_RESU/RESU", "VALE_I"}, by_verdict},
+      {{"TEST_RESU/RESU", "VALE_C"}, by_verdict},
+      {{"TEST_RESU/RESU", "VALE_K"}, by_verdict},
+      {{"TEST_TABLE", "VALE_R"}, by_verdict},
+      {{"TEST_TABLE", "VALE_I"}, by_verdict},
+      {{"TEST_TABLE", "VALE_C"}, by_verdict},
+      {{"TEST_TABLE", "VALE_K"}, by_verdict},
       {{"STAT_NON_LINE", "PARM_THETA"}, in_behaviour},
       {{"STAT_NON_LINE/CONVERGENCE", "RESI_INTE_RELA"}, in_behaviour},
       {{"STAT_NON_LINE/CONVERGENCE", "ITER_INTE_MAXI"}, in_behaviour},
@@ -49,6 +66,10 @@ const std::map<Key, std::string_view>& keywords() {
 std::string hint_on_former_keyword(std::string_view level, std::string_view keyword) {
   const auto found = keywords().find({level, keyword});
   return found == keywords().end() ? std::string() : std::string(found->second);
+}
+
+std::string of_former_keyword(std::string_view level, std::string_view keyword) {
+  return hint_on_former_keyword(level, keyword) == by_verdict ? "VALE_CALC" : "";
 }
 
 std::string of_former_field(std::string_view name) {

@@ -123,6 +123,7 @@ class Parser {
   NodePtr parse_postfix();
   NodePtr parse_call(NodePtr callee);
   void parse_argument(CallNode& call);
+  bool is_number_without_point(const Node& node) const;
   NodePtr parse_subscript(NodePtr object);
   NodePtr parse_subscript_item();
   NodePtr parse_lambda();

@@ -37,6 +37,13 @@ bool is_whole_number(const Node& node) {
   return node.kind == NodeKind::constant && static_cast<const ConstantNode&>(node).value.is_integer();
 }
 
+/// -0
+bool is_whole_with_sign(const Node& node) {
+  const Node* number = &node;
+  if (node.kind == NodeKind::unary) number = static_cast<const UnaryNode&>(node).operand.get();
+  return number != nullptr && is_whole_number(*number);
+}
+
 }  // namespace
 
 std::string_view symbol_of(Operator op) {
@@ -295,13 +302,21 @@ void Parser::parse_argument(CallNode& call) {
     } else if (at(":=")) {
       fail("not-supported", "':=' is not part of the command language", span_of(now_), "assign on a line of its own");
     } else if (follows_keyword) {
-      const bool decimal_comma = is_whole_number(*item.value) && is_whole_number(*call.arguments.back().value) &&
-                                 call.arguments.back().value->end + 1 == item.value->begin;
+      const Node& before = *call.arguments.back().value;
+      // 2,1e5 and -0,2: what follows the comma has digits alone, or an exponent besides.
+      const bool decimal_comma = item.value->kind == NodeKind::constant && is_whole_with_sign(before) &&
+                                 before.end + 1 == item.value->begin && is_number_without_point(*item.value);
       report("syntax", "an argument without keyword follows one with a keyword", span_of(*item.value),
              decimal_comma ? "numbers have a decimal point: write 10.5 for ten and a half" : "write KEYWORD=value");
     }
   }
   call.arguments.push_back(std::move(item));
+}
+
+bool Parser::is_number_without_point(const Node& node) const {
+  const std::string_view text = file_->text().substr(node.begin, node.end - node.begin);
+  return !text.empty() && std::isdigit(static_cast<unsigned char>(text.front())) != 0 &&
+         text.find('.') == std::string_view::npos;
 }
 
 NodePtr Parser::parse_subscript(NodePtr object) {

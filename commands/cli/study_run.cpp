@@ -190,6 +190,7 @@ void StudyRun::include(const interpreter::Call& call) {
 
 void StudyRun::go_on(const interpreter::Call& call) const {
   if (files_begun_ > 1) return;
+  evaluator_->lose_names();
   throw interpreter::DiagnosticError(
       "nothing-before", "POURSUITE goes on from a file before this one, and there is none", call.span,
       "name the files in their order in an .export; a data base of Code_Aster cannot be read");

@@ -466,8 +466,8 @@ std::vector<ArgumentPlace> argument_places(const ValueFunction& function, std::s
 
 }  // namespace
 
-Field evaluate(const Field& which, std::span<const ValueFunction> functions, std::span<const Field* const> arguments,
-               std::string quantity) {
+Field evaluate(const Mesh& mesh, const Field& which, std::span<const ValueFunction> functions,
+               std::span<const Field* const> arguments, std::string quantity) {
   const FieldRows rows(which);
   std::vector<FieldRows> argument_rows;
   for (const Field* argument : arguments) {
@@ -492,8 +492,11 @@ Field evaluate(const Field& which, std::span<const ValueFunction> functions, std
                                                            static_cast<std::size_t>(source.component)]
                   : absent;
       if (std::isnan(value)) {
-        throw Error("missing-variable", fmt::format("a function depends on {}, which has no value at one of its points",
-                                                    functions[index].parameters[at.size()]));
+        const bool nodal = std::holds_alternative<NodalField>(which);
+        throw Error(
+            "missing-variable",
+            fmt::format("a function depends on {}, which has no value at {} {}", functions[index].parameters[at.size()],
+                        nodal ? "node" : "a point of cell", nodal ? mesh.node_name(place) : mesh.cell_name(place)));
       }
       at.push_back(value);
     }

@@ -122,8 +122,9 @@ struct ValueFunction {
 };
 /// At each point the value of the function whose index in `functions` the field `which` has there, its parameters being
 /// the components of `arguments` at that point, infinite where it is no number (made_number). Throws Error
-/// `incompatible-field` (other places), `missing-variable` naming a parameter that no argument has there.
-Field evaluate(const Field& which, std::span<const ValueFunction> functions, std::span<const Field* const> arguments,
-               std::string quantity);
+/// `incompatible-field` (other places), `missing-variable` naming a parameter that no argument has there, and the node
+/// or cell of `mesh`.
+Field evaluate(const Mesh& mesh, const Field& which, std::span<const ValueFunction> functions,
+               std::span<const Field* const> arguments, std::string quantity);
 
 }  // namespace comma::solver

@@ -76,12 +76,12 @@ TEST_CASE("functions are evaluated with the components of their arguments at eac
   const Field places = nodal({"X"}, {3, absent, absent});
   const Field time = uniform_like(places, "T", 5.0);
   const std::vector<const Field*> arguments = {&places, &time};
-  const auto result = std::get<NodalField>(evaluate(which, functions, arguments, "NEUT_R"));
+  const auto result = std::get<NodalField>(evaluate(Mesh(), which, functions, arguments, "NEUT_R"));
   CHECK(result.at(0, 0) == 15);
   CHECK(result.at(1, 0) == 7);
   CHECK(std::isnan(result.at(2, 0)));
   const Field needy = nodal({"X1"}, {0, 0, absent});
-  CHECK_THROWS_WITH(evaluate(needy, functions, arguments, "NEUT_R"), Catch::Contains("depends on X"));
+  CHECK_THROWS_WITH(evaluate(Mesh(), needy, functions, arguments, "NEUT_R"), Catch::Contains("depends on X, which has no value at node N2"));
 }
 
 TEST_CASE("what is made of numbers and is none is infinite, not absent", "[fields]") {
@@ -96,7 +96,7 @@ TEST_CASE("what is made of numbers and is none is infinite, not absent", "[field
       {{"X1"}, [](std::span<const double> at) { return (at[0] - 1) * huge * huge - (at[0] - 1) * huge * huge; }}};
   const Field which = nodal({"X2"}, {absent, 0, absent}), two = nodal({"X1"}, {1, 2, 1});
   const std::vector<const Field*> arguments = {&two};
-  const Field made = evaluate(which, functions, arguments, "NEUT_R");
+  const Field made = evaluate(Mesh(), which, functions, arguments, "NEUT_R");
   REQUIRE(first_infinite(made));
   CHECK(first_infinite(made)->place == 1);
   CHECK_FALSE(first_infinite(field));
