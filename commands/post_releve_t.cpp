@@ -134,20 +134,29 @@ Row head_of_action(const Keywords& action, const FieldSource& source) {
   return head;
 }
 
-// Tangents and means along a line come of the order of the nodes.
-void warn_of_order(const Keywords& action, const Reading& reading, Context& context) {
+// What comes of the order of the nodes: REPERE='LOCAL' tangents, OPERATION='MOYENNE' means along a line, and
+// 'EXTRACTION' places along one, where the nodes lie on it. Nothing: the order does not matter.
+std::string use_of_order(const Keywords& action, const Reading& reading) {
+  if (action.has("RESULTANTE")) return {};
+  if (action.text("REPERE") == "LOCAL") return "REPERE='LOCAL'";
   const auto operations = action.texts("OPERATION");
-  const bool by_axes = action.text("REPERE") == "LOCAL" && !action.has("RESULTANTE");
-  if (!by_axes && std::ranges::find(operations, "MOYENNE") == operations.end()) return;
+  const auto does = [&](const char* word) { return std::ranges::find(operations, word) != operations.end(); };
+  if (does("MOYENNE")) return "OPERATION='MOYENNE'";
+  return does("EXTRACTION") && solver::lie_on_a_line(reading.mesh, reading.nodes) ? "ABSC_CURV" : "";
+}
+
+void warn_of_order(const Keywords& action, const Reading& reading, Context& context) {
+  const std::string use = use_of_order(action, reading);
+  if (use.empty()) return;
   const auto node = solver::node_out_of_order(reading.mesh, reading.nodes);
   if (!node) return;
-  const char* keyword = by_axes ? "REPERE" : "OPERATION";
-  context.diagnostics.alarm("nodes-out-of-order",
-                            fmt::format("POST_RELEVE_T: the nodes do not follow each other along a line, as {}='{}' "
-                                        "takes them to: the way turns back at {}",
-                                        keyword, by_axes ? "LOCAL" : "MOYENNE", reading.mesh.node_name(*node)),
-                            action.span_of(keyword),
-                            "make an ordered group by DEFI_GROUP(CREA_GROUP_NO=_F(OPTION='NOEUD_ORDO', ...))");
+  context.diagnostics.alarm(
+      "nodes-out-of-order",
+      fmt::format("POST_RELEVE_T: the nodes do not follow each other along a line, as {} takes them to: the way turns "
+                  "back at {}",
+                  use, reading.mesh.node_name(*node)),
+      action.span_of(use.starts_with("REPERE") ? "REPERE" : "OPERATION"),
+      "make an ordered group by DEFI_GROUP(CREA_GROUP_NO=_F(OPTION='NOEUD_ORDO', ...))");
 }
 
 // Away from an axis there is no direction on it: nodes there take the axes of others.

@@ -140,6 +140,13 @@ void Diagnostics::alarm(std::string code, std::string message, Span span, std::s
   add({Severity::alarm, std::move(code), std::move(message), std::move(hint), std::move(span), {}});
 }
 
+std::vector<Diagnostic> Diagnostics::distinct() const {
+  std::vector<Diagnostic> told;
+  for (const Diagnostic& item : items_)
+    if (std::find(told.begin(), told.end(), item) == told.end()) told.push_back(item);
+  return told;
+}
+
 bool Diagnostics::has_errors() const {
   return std::any_of(items_.begin(), items_.end(), [](const Diagnostic& d) { return d.severity == Severity::error; });
 }

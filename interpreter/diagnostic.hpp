@@ -26,6 +26,8 @@ struct Diagnostic {
   std::string hint;
   Span span;
   std::vector<Span> called_from{};  ///< the calls of functions that led there, the innermost first
+
+  bool operator==(const Diagnostic&) const = default;
 };
 
 /// The finding as a user reads it, without a final line break:
@@ -62,6 +64,8 @@ class Diagnostics {
   void alarm(std::string code, std::string message, Span span, std::string hint = {});
 
   const std::vector<Diagnostic>& items() const { return items_; }
+  /// Each finding once: a command in a loop may find the same in each turn.
+  std::vector<Diagnostic> distinct() const;
   bool has_errors() const;
 
   /// Functions of the file that run now were called there, the innermost last.

@@ -47,6 +47,7 @@ struct Span {
   std::uint32_t end = 0;
 
   explicit operator bool() const { return file != nullptr; }
+  bool operator==(const Span&) const = default;
 };
 
 }  // namespace comma::interpreter

@@ -25,7 +25,7 @@ int check(const CheckOptions& options) {
   print_diagnostics(diagnostics, true);
   const int status = diagnostics.has_errors() ? the_file_is_wrong : all_verdicts_hold;
   if (!options.json.empty())
-    write_report(options.json, {options.file, status_word(status), {}, {}, diagnostics.items(), {}, 0.0});
+    write_report(options.json, {options.file, status_word(status), {}, {}, diagnostics.distinct(), {}, 0.0});
   if (status == all_verdicts_hold) fmt::print("{} is sound\n", options.file);
   return status;
 }

@@ -26,9 +26,12 @@ void show_summary(const Context& context, int status, double seconds) {
   const auto held =
       std::count_if(verdicts.begin(), verdicts.end(), [](const Verdict& verdict) { return verdict.passed; });
   const auto failed = static_cast<std::ptrdiff_t>(verdicts.size()) - held;
-  std::string text = fmt::format("{} {} hold, {} fail", held, held == 1 ? "verdict" : "verdicts", failed);
+  const std::string judged =
+      fmt::format("{}, {} {}", held == 1 ? "1 verdict holds" : fmt::format("{} verdicts hold", held), failed,
+                  failed == 1 ? "fails" : "fail");
+  std::string text = verdicts.empty() ? "no verdicts" : judged;
   if (status == the_file_is_wrong)
-    text = (verdicts.empty() ? "" : text + "; ") + "the file is wrong; nothing more was computed";
+    text = (verdicts.empty() ? "" : judged + "; ") + "the file is wrong; nothing more was computed";
   if (status == the_computation_failed) text += "; the computation failed";
   context.console.line(fmt::format("{}   ({:.0f} ms)", text, 1e3 * seconds));
 }
@@ -58,7 +61,7 @@ Outcome execute(const RunOptions& options) try {
     show_summary(pass.context(), status, elapsed.count());
   return {status,
           {options.file, status_word(status), pass.context().verdicts, records_of(pass.graph()),
-           pass.diagnostics().items(), pass.context().counters, elapsed.count()}};
+           pass.diagnostics().distinct(), pass.context().counters, elapsed.count()}};
 } catch (const interpreter::DiagnosticError& error) {
   interpreter::Diagnostics only;
   only.add(error.diagnostic());

@@ -157,6 +157,9 @@ interpreter::Ast StudyRun::read(const fs::path& file) {
   interpreter::Ast tree = interpreter::parse(interpreter::SourceFile::read(file.string()), findings);
   unreadable_ = unreadable_ || findings.has_errors();
   for (const Diagnostic& finding : findings.items()) diagnostics_.add(finding);
+  if (tree.statements.empty() && !findings.has_errors())
+    diagnostics_.alarm("empty-file", file.filename().string() + " holds no statement: there is nothing to do", {},
+                       "see whether it was saved, and whether another file is meant");
   return tree;
 }
 
@@ -197,7 +200,7 @@ void StudyRun::go_on(const interpreter::Call& call) const {
 }
 
 void print_diagnostics(const interpreter::Diagnostics& diagnostics, bool alarms) {
-  std::vector<Diagnostic> ordered = diagnostics.items();
+  std::vector<Diagnostic> ordered = diagnostics.distinct();
   std::stable_partition(ordered.begin(), ordered.end(),
                         [](const Diagnostic& item) { return item.severity != Severity::error; });
   std::fflush(stdout);

@@ -37,7 +37,7 @@ std::string outcome(const fs::path& file) {
   StudyRun pass(open_study(file), Verbosity::quiet, {});
   pass.run();
   std::string text = "exit " + std::to_string(status_of(pass.diagnostics())) + "\n";
-  for (const auto& diagnostic : pass.diagnostics().items()) text += comma::interpreter::render(diagnostic) + "\n";
+  for (const auto& diagnostic : pass.diagnostics().distinct()) text += comma::interpreter::render(diagnostic) + "\n";
   replace_all(text, folder.string() + "/", "");
   return text;
 }

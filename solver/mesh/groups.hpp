@@ -65,6 +65,8 @@ std::vector<int> nodes_along_line(const Mesh& mesh, std::span<const int> cells, 
 /// The first of the nodes at which the way from one to the next turns back (by more than 90 degrees), and does not go
 /// along edges of cells before and behind it; none where they follow each other along a line.
 std::optional<int> node_out_of_order(const Mesh& mesh, std::span<const int> nodes);
+/// Whether three nodes or more lie on a straight line, but for a millionth of its length.
+bool lie_on_a_line(const Mesh& mesh, std::span<const int> nodes);
 
 double distance(const Point& a, const Point& b);
 

@@ -158,6 +158,21 @@ std::vector<int> nodes_along_line(const Mesh& mesh, std::span<const int> cells, 
   return Line(mesh, cells).walk(start, end, direction);
 }
 
+bool lie_on_a_line(const Mesh& mesh, std::span<const int> nodes) {
+  constexpr double rounding = 1e-6;
+  if (nodes.size() < 3) return false;
+  const auto place = [&](int node) {
+    return Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data()));
+  };
+  const Eigen::Vector3d first = place(nodes.front());
+  const int far = *std::ranges::max_element(nodes, {}, [&](int node) { return (place(node) - first).norm(); });
+  const double length = (place(far) - first).norm();
+  if (length == 0.0) return false;
+  const Eigen::Vector3d along = (place(far) - first) / length;
+  return std::ranges::all_of(nodes,
+                             [&](int node) { return (place(node) - first).cross(along).norm() <= rounding * length; });
+}
+
 std::optional<int> node_out_of_order(const Mesh& mesh, std::span<const int> nodes) {
   for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
     if (!turns_back(mesh, nodes[i - 1], nodes[i], nodes[i + 1])) continue;
