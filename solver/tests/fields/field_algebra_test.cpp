@@ -81,7 +81,8 @@ TEST_CASE("functions are evaluated with the components of their arguments at eac
   CHECK(result.at(1, 0) == 7);
   CHECK(std::isnan(result.at(2, 0)));
   const Field needy = nodal({"X1"}, {0, 0, absent});
-  CHECK_THROWS_WITH(evaluate(Mesh(), needy, functions, arguments, "NEUT_R"), Catch::Contains("depends on X, which has no value at node N2"));
+  CHECK_THROWS_WITH(evaluate(Mesh(), needy, functions, arguments, "NEUT_R"),
+                    Catch::Contains("depends on X, which has no value at node N2"));
 }
 
 TEST_CASE("what is made of numbers and is none is infinite, not absent", "[fields]") {
