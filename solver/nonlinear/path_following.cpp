@@ -95,7 +95,7 @@ int PathFollowing::solve(double time, double duration, const DrivenLoads& loads,
   q = reduced;
   u = start_;
   intensity_ = accepted_;
-  tell("the step has failed and starts again with the intensity that is nearest from one iteration to the next");
+  tell("step fails: again with the intensity nearest from iteration to iteration");
   return iterate(true, duration / control_.scale, loads, q, u);
 }
 
