@@ -36,6 +36,7 @@ Value Session::call(const CommandCall& written, bool eager) {
     const Severity severity = is_foreign_command(written.name) ? unsupported : Severity::error;
     diagnostics_.add(
         {severity, std::move(missing.code), std::move(missing.message), std::move(missing.hint), written.name_span});
+    spoil_reused(written);
     return Value::unknown();
   }
   const CommandPage& page = catalogue_.page(written.name);
@@ -43,8 +44,7 @@ Value Session::call(const CommandCall& written, bool eager) {
   const bool readable = bind_expressions(bound, page, diagnostics_);
   CheckedCall checked = check_call(bound, page, catalogue_, diagnostics_, unsupported);
   if (!readable || !checked.sound) {
-    for (const Argument& argument : written.arguments)
-      if (argument.name == "reuse" && argument.value->is_concept()) graph_.spoil(*argument.value->as_concept());
+    spoil_reused(written);
     return Value::unknown();
   }
   if (const auto action = immediate_.find(written.name); action != immediate_.end()) {
@@ -81,6 +81,12 @@ Value Session::call(const CommandCall& written, bool eager) {
     }
   }
   return product ? Value(product) : worth;
+}
+
+/// A call that is wrong would have changed what it names with reuse=.
+void Session::spoil_reused(const CommandCall& call) {
+  for (const Argument& argument : call.arguments)
+    if (argument.name == "reuse" && argument.value->is_concept()) graph_.spoil(*argument.value->as_concept());
 }
 
 // What acts at once may open a file that a command before it names, which itself waits for what is written before.

@@ -80,6 +80,7 @@ class Session : public CommandHost {
   ConceptPtr make_concept(const std::string& type, const std::string& name, const Span& span);
   bool may_run(int node);
   void name_files();
+  void spoil_reused(const CommandCall& call);
   bool is_anything_said_later();
   /// Writes what was printed before the first so many nodes were all.
   void write_printed(std::size_t nodes);
