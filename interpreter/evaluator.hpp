@@ -79,6 +79,7 @@ class Evaluator {
   Flow execute_try(const TryStatement& statement);
   Flow execute_with(const WithStatement& statement);
   void forget_handlers(const TryStatement& statement);
+  void spoil_reused(const CallArguments& arguments);
   Flow execute_handler(const TryStatement::Handler& handler, const RaisedError& error);
   Flow execute_broken(const BrokenStatement& statement);
   Flow skip_unknown(const Statement& statement);

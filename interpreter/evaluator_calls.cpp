@@ -139,8 +139,17 @@ bool holds_any_unknown(const CallArguments& arguments) {
 
 }  // namespace
 
+/// What is called is not known: it may have changed what it names with reuse=.
+void Evaluator::spoil_reused(const CallArguments& arguments) {
+  const Value* reused = arguments.find("reuse");
+  if (reused != nullptr && reused->is_concept()) host_.spoil(*reused->as_concept());
+}
+
 Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
-  if (callee.is_unknown()) return callee;
+  if (callee.is_unknown()) {
+    spoil_reused(arguments);
+    return callee;
+  }
   if (const auto* function = callee.as_object<FunctionObject>()) {
     return function->home == home_ ? call_function(*function, arguments) : call_from_outside(*function, arguments);
   }
