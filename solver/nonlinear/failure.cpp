@@ -182,7 +182,17 @@ Error cut_no_further(const Error& error, int times) {
                    "let steps be cut further (SUBD_NIVEAU, SUBD_PAS_MINI of ECHEC, PAS_MINI)");
 }
 
-Error advised(const Error& error, const StaticProblem& problem) {
+Error advised(const Error& error, const StaticProblem& problem, const std::string& unheld) {
+  const std::string note = but_for_contact(unheld), message = error.what();
+  const bool is_told = error.code() == "singular-matrix" || error.hint().find("hold by DDL_IMPO") != std::string::npos;
+  if (is_failure_of_step(error.code()) && !unheld.empty() && !is_told) {
+    const bool is_noted = message.find(note) != std::string::npos;
+    const std::size_t end = std::min(message.find('\n'), message.size());
+    return Error(
+        error.code(), message.substr(0, end) + (is_noted ? "" : note) + message.substr(end),
+        error.hint() + (error.hint().empty() ? "" : "; or ") +
+            "hold by DDL_IMPO what contact does not: where nothing balances the loads, smaller steps do not help");
+  }
   const bool has_inequalities = !problem.unilateral.empty() || (problem.contact && !is_condensed(*problem.contact));
   if (error.code() != "singular-matrix" || !has_inequalities) return error;
   const std::string otherwise =

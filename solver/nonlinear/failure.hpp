@@ -25,8 +25,9 @@ std::string_view short_cause(std::string_view code);
 Error cut_no_further(const Error& error, int times);
 
 /// An error as it is, but of a singular stiffness with what helps bodies that only inequalities hold: these are solved
-/// on the compliance of bodies that stand without them.
-Error advised(const Error& error, const StaticProblem& problem);
+/// on the compliance of bodies that stand without them; and of a step that fails with what nothing but contact holds
+/// (`unheld`, in words, or empty).
+Error advised(const Error& error, const StaticProblem& problem, const std::string& unheld);
 
 /// Whether a step whose iterations are spent stands all the same, which is noted then: where the options say so and it
 /// has finite residuals.

@@ -448,7 +448,7 @@ void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) 
 void MixedContact::note_loose_bodies(const Eigen::VectorXd& u, ContactDoubts& doubts) const {
   if (tangent_.springs().empty() || rows_.reduced().rows() == 0) return;
   const RowMatrix held = closed_rows(solved(u));
-  doubts.note_loose(tangent_.unheld_beside(&held));
+  doubts.note_loose(tangent_.unheld_beside(held));
 }
 
 std::vector<double> MixedContact::pushed_back(const Eigen::VectorXd& u) {

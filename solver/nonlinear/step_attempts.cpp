@@ -23,11 +23,11 @@ std::optional<int> StaticRun::try_step(double instant, StepSequence& sequence) {
     return take_again(instant, before, sequence);
   } catch (const Error& error) {
     const StepEvent* event = watch_->event_behind(error.code());
-    if (event == nullptr && !is_failure_of_step(error.code())) throw advised(error, problem_);
+    if (event == nullptr && !is_failure_of_step(error.code())) throw advised(error, problem_, tangent_.unheld());
     if (event ? !event->cutting || !sequence.cut(*event->cutting, watch_->share_of_step()) : !sequence.cut()) {
       if (event) throw cut_no_further(error, sequence.depth());
       // In a part of a step contact has been settled already.
-      if (sequence.is_part()) throw cut_no_further(advised(error, problem_), sequence.depth());
+      if (sequence.is_part()) throw cut_no_further(advised(error, problem_, tangent_.unheld()), sequence.depth());
       return solve_as_last_resort(instant, before, error);
     }
     take_back(before);
@@ -94,11 +94,11 @@ int StaticRun::solve_settled(double instant, const Progress& before) {
 }
 
 int StaticRun::solve_as_last_resort(double instant, const Progress& before, const Error& error) {
-  if (!mixed_ || !mixed_->is_joint() || !assembler_.has_memory()) throw advised(error, problem_);
+  if (!mixed_ || !mixed_->is_joint() || !assembler_.has_memory()) throw advised(error, problem_, tangent_.unheld());
   try {
     return solve_settled(instant, before);
   } catch (const Error& again) {
-    throw advised(again, problem_);
+    throw advised(again, problem_, tangent_.unheld());
   }
 }
 

@@ -132,14 +132,17 @@ SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u, TangentKind k
   return reduced;
 }
 
-std::string TangentSystem::unheld() const { return unheld_beside(nullptr); }
+std::string TangentSystem::unheld() const { return springs_.empty() ? std::string() : parts_on_springs(nullptr); }
 
-std::string TangentSystem::unheld_beside(const RowMatrix* held) const {
-  if (springs_.empty() || !is_constant()) return {};
+std::string TangentSystem::unheld_beside(const RowMatrix& held) const {
+  return springs_.empty() || !is_constant() ? std::string() : parts_on_springs(&held);
+}
+
+std::string TangentSystem::parts_on_springs(const RowMatrix* held) const {
   std::vector<int> rows;
   for (const auto& spring : springs_) rows.push_back(spring.first);
-  const SymmetricMatrix reduced =
-      elimination_.reduce(stiffness(Eigen::VectorXd::Zero(dofs_.size()), TangentKind::tangent));
+  const TangentKind kind = is_constant() ? TangentKind::tangent : TangentKind::elastic;
+  const SymmetricMatrix reduced = elimination_.reduce(stiffness(Eigen::VectorXd::Zero(dofs_.size()), kind));
   return describe(find_free_parts(*model_.mesh, dofs_, elimination_, reduced, rows, linear_.singular_digits, held),
                   *model_.mesh);
 }

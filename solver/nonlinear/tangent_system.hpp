@@ -71,11 +71,12 @@ class TangentSystem {
   /// The reduced unknowns that hold a spring to the ground, and its stiffness.
   const std::vector<std::pair<int, double>>& springs() const { return springs_; }
 
-  /// In words, what nothing but whoever allowed springs holds; empty where there are none, or where the tangent changes
-  /// with the displacement.
+  /// In words, what nothing but whoever allowed springs holds of the bodies, elastic and before deformation; empty
+  /// where there are none.
   std::string unheld() const;
-  /// The same of what moves rigidly beside what holds these rows of the reduced unknowns, if any.
-  std::string unheld_beside(const RowMatrix* held) const;
+  /// The same of what moves rigidly beside what holds these rows of the reduced unknowns; empty too where the tangent
+  /// changes with the displacement.
+  std::string unheld_beside(const RowMatrix& held) const;
 
   /// Overwrites the columns (reduced_size x k) by K^-1 times them.
   void solve(Eigen::Ref<Eigen::MatrixXd> columns);
@@ -117,6 +118,7 @@ class TangentSystem {
     double& of(Component component);
   };
   SymmetricMatrix stiffness(const Eigen::VectorXd& u, TangentKind kind) const;
+  std::string parts_on_springs(const RowMatrix* held) const;
   SymmetricMatrix assembled(const Eigen::VectorXd& u, TangentKind kind) const;
   bool is_known(TangentKind kind) const;
   bool is_symmetric() const { return stays_symmetric_ || (assembler_.is_symmetric() && !followers_); }
