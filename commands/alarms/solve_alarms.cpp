@@ -1,6 +1,7 @@
 #include "commands/alarms/solve_alarms.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
 #include <variant>
@@ -147,6 +148,15 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
               "{:.3g} on the mean, {:.0f} % of what contact pushes back: forces come out too small by about that share",
               zone, doubt.length, 100.0 * doubt.share),
           "refine the slave side there, or put points on the nodes (INTEGRATION='AUTO' on linear faces)"};
+    case solver::DoubtKind::passed_average:
+      return {"coarse-slave",
+              fmt::format(
+                  "slave nodes of zone {} are inside the master, {:.3g} deep on the mean, {}: the averages over "
+                  "patches of ALGO_CONT='LAC' hold it back in the mean alone",
+                  zone, doubt.length,
+                  std::isfinite(doubt.share) ? fmt::format("{:.0f} % of what contact pushes back", 100.0 * doubt.share)
+                                             : "and contact pushes nothing back"),
+              "refine the slave side there, or hold each node (ALGO_CONT='STANDARD')"};
     case solver::DoubtKind::passed_master:
       break;
   }

@@ -40,6 +40,20 @@ ContactDefinition turned(const ContactDefinition& definition, const ContactZone&
   return result;
 }
 
+/// The same surfaces as they are, slave nodes facing master facets, watched.
+ContactDefinition watched(const ContactDefinition& definition, const ContactZone& zone) {
+  ContactDefinition result;
+  result.smooth_normals = definition.smooth_normals;
+  ContactZone& other = result.zones.emplace_back(zone);
+  other.mixed = {};
+  other.projection_tolerance = border;
+  other.resolved = false;
+  return result;
+}
+
+/// Averages see all of the master side, but what lies beyond a pairing distance is let in altogether.
+bool is_held_in_the_mean(const ContactZone& zone) { return zone.mixed.local_average && zone.pairing_distance < 0.0; }
+
 /// A gap that was solved for, and what it is.
 struct StaleGap {
   int zone = 0;
@@ -83,7 +97,9 @@ void note_soft_penalty(ContactDoubt doubt, double reach, double size, ContactDou
 
 PassedMaster::Depths PassedMaster::depths(const ContactZone& zone, Positions positions, double time) const {
   Depths result;
-  for (const ContactPair& pair : pair_surfaces(turned(definition_, zone), mesh_, positions, time)) {
+  const ContactDefinition looked_at =
+      is_held_in_the_mean(zone) ? watched(definition_, zone) : turned(definition_, zone);
+  for (const ContactPair& pair : pair_surfaces(looked_at, mesh_, positions, time)) {
     if (pair.status != PairingStatus::watched) continue;
     result.size = std::max(result.size, extent(mesh_, pair.facet));
     result.depth.emplace(pair.slave, -gap_at(pair, mesh_, positions));
@@ -94,8 +110,7 @@ PassedMaster::Depths PassedMaster::depths(const ContactZone& zone, Positions pos
 void PassedMaster::look(Positions positions, std::span<const double> pushed_back, double time) {
   for (int index = 0; index < static_cast<int>(definition_.zones.size()); ++index) {
     const ContactZone& zone = definition_.zones[static_cast<std::size_t>(index)];
-    // Averages let master nodes a little way in; what lies beyond a pairing distance is let in altogether.
-    if (!zone.resolved || (zone.mixed.local_average && zone.pairing_distance < 0.0)) continue;
+    if (!zone.resolved) continue;
     const double pushed = pushed_back[static_cast<std::size_t>(index)];
     pushed_back_[index] = std::max(pushed_back_[index], pushed);
     try {
@@ -109,7 +124,8 @@ void PassedMaster::look(Positions positions, std::span<const double> pushed_back
 const std::unordered_map<int, double>& PassedMaster::shares(int index) {
   const auto [known, is_new] = shares_.try_emplace(index);
   if (!is_new) return known->second;
-  for (const int cell : definition_.zones[static_cast<std::size_t>(index)].master_cells) {
+  const ContactZone& zone = definition_.zones[static_cast<std::size_t>(index)];
+  for (const int cell : is_held_in_the_mean(zone) ? zone.slave_cells : zone.master_cells) {
     const CellType type = mesh_.cell_types[static_cast<std::size_t>(cell)];
     const auto nodes = mesh_.cell(cell);
     std::array<double, max_facet_nodes> own{};
@@ -154,7 +170,8 @@ void PassedMaster::conclude(ContactDoubts& doubts) const {
     });
     const double pushed = pushed_back_.at(zone);
     if (is_soft || depth <= doubtful_passage * pushed) continue;
-    doubts.note({.kind = DoubtKind::passed_master,
+    const bool is_average = is_held_in_the_mean(definition_.zones[static_cast<std::size_t>(zone)]);
+    doubts.note({.kind = is_average ? DoubtKind::passed_average : DoubtKind::passed_master,
                  .zone = zone,
                  .share = pushed > 0.0 ? depth / pushed : std::numeric_limits<double>::infinity(),
                  .length = depth});

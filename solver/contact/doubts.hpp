@@ -24,10 +24,11 @@ enum class DoubtKind : std::uint8_t {
                          ///< been found
   lowered_augmentation,  ///< between nodes the augmentation is softer than given, no solution having been found with
                          ///< that
-  held_overlap,   ///< conditions on displacements hold a point inside the master, and a penalty gives it no force
-  passed_master,  ///< master nodes between slave points have gone through the slave side
-  weak_friction,  ///< points between nodes that slide bear less than the limit of friction: that is of the multipliers
-                  ///< of nodes they share with open ones
+  held_overlap,    ///< conditions on displacements hold a point inside the master, and a penalty gives it no force
+  passed_master,   ///< master nodes between slave points have gone through the slave side
+  passed_average,  ///< under local average contact slave nodes are inside the master: patches hold it in the mean alone
+  weak_friction,   ///< points between nodes that slide bear less than the limit of friction: that is of the multipliers
+                   ///< of nodes they share with open ones
   strong_friction,    ///< or bear more: a point that opens leaves friction to others of its face, which press less
   coarse_face,        ///< points between nodes overlap: faces that are partly in contact press for all of their points
                       ///< together
@@ -42,9 +43,9 @@ struct ContactDoubt {
   DoubtKind kind = DoubtKind::soft_penalty;
   int zone = 0;
   double share = 0.0;  ///< of the depth, slip or motion in what the kind compares it with; `passed_master`,
-                       ///< `coarse_face`: of the mean depth of master nodes or slave points in what contact pushes back
-                       ///< (infinite where it pushes nothing); `weak_friction`, `strong_friction`: of what points that
-                       ///< slide lack in the limit of all, or points bear beyond theirs
+                       ///< `passed_average`, `coarse_face`: of the mean depth of nodes or points in what contact pushes
+                       ///< back (infinite where it pushes nothing); `weak_friction`, `strong_friction`: of what points
+                       ///< that slide lack in the limit of all, or points bear beyond theirs
   double length = 0.0;   ///< m: depth or slip
   double penalty = 0.0;  ///< the present one
   double wanted = 0.0;   ///< one that would leave a share of `penalty_goal`
@@ -97,9 +98,10 @@ void note_soft_penalty(ContactDoubt doubt, double reach, double size, ContactDou
 /// Doubts of kind `passed_master`: on the mean, the master nodes that touch the slave side or are inside it have gone
 /// in, beyond where the mesh has them at first, by more than `doubtful_passage` of the most that contact pushes back.
 /// Each counts by what it stands for of the faces: the middle nodes of quadratic ones bear most of what presses there.
-/// Zones of local averages see all of the master side and have none, nor have those whose penalty is known to be soft.
-/// Where contact pushes nothing back at all, master nodes count that lay in front of the slave side at first and are
-/// behind it.
+/// Of zones of local averages without a pairing distance, which see all of the master side, slave nodes inside the
+/// master are looked for instead (`passed_average`). Zones whose penalty is known to be soft have no such doubts. Where
+/// contact pushes nothing back at all, master nodes count that lay in front of the slave side at first and are behind
+/// it.
 class PassedMaster {
  public:
   PassedMaster(const ContactDefinition& definition, const Mesh& mesh) : definition_(definition), mesh_(mesh) {}
@@ -124,7 +126,7 @@ class PassedMaster {
   std::map<int, double> pushed_back_;        ///< by zone, the most
   std::unordered_map<int, Depths> initial_;  ///< by zone
   std::map<int, double> deepest_;            ///< by zone, on the mean
-  /// By zone, of the master nodes: the magnitude of the integral of their shape functions.
+  /// By zone, of the nodes that are looked at: the magnitude of the integral of their shape functions.
   std::unordered_map<int, std::unordered_map<int, double>> shares_;
 };
 
