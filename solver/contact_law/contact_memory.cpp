@@ -28,22 +28,26 @@ std::optional<std::size_t> ContactMemory::zone_like(const ZoneMemory& zone, std:
   return static_cast<std::size_t>(found - zones.begin());
 }
 
-bool ContactMemory::held(const RememberedPoint& point, const ZoneMemory& zone, double reach) const {
-  double nearest = reach;
-  bool is_held = false, is_of_cell = false;
-  for (const ZoneMemory& before : zones) {
-    if (!before.bilateral || !share_cells(zone, before)) continue;
-    for (const RememberedPoint& other : before.points) {
-      const double distance = (other.place - point.place).norm();
-      const bool of_cell = other.cell == point.cell;
-      // Where faces at a node have points of their own, each goes on from its own.
-      if (distance > nearest || (distance == nearest && is_of_cell && !of_cell)) continue;
-      nearest = distance;
-      is_held = other.closed;
-      is_of_cell = of_cell;
-    }
+std::vector<char> ContactMemory::held(std::span<const RememberedPoint> points, const ZoneMemory& zone,
+                                      std::span<const double> reach) const {
+  std::vector<const ZoneMemory*> candidates;
+  for (const ZoneMemory& before : zones)
+    if (share_cells(zone, before)) candidates.push_back(&before);
+  std::vector<char> result(points.size(), 0);
+  for (std::size_t p = 0; p < points.size(); ++p) {
+    double nearest = reach[p];
+    bool is_of_cell = false;
+    for (const ZoneMemory* before : candidates)
+      for (const RememberedPoint& other : before->points) {
+        const double distance = (other.place - points[p].place).norm();
+        const bool of_cell = other.cell == points[p].cell;
+        if (distance > nearest || (distance == nearest && (is_of_cell || !of_cell))) continue;
+        nearest = distance;
+        is_of_cell = of_cell;
+        result[p] = before->bilateral && other.closed;
+      }
   }
-  return is_held;
+  return result;
 }
 
 }  // namespace comma::solver

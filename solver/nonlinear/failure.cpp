@@ -55,6 +55,9 @@ constexpr std::string_view hold_it =
     "FORMULATION='CONTINUE'); else look at which way the loads push and the normals point, and whether friction can "
     "bear them";
 
+constexpr std::string_view smaller_steps_may_not_help =
+    "hold by DDL_IMPO what contact does not: where nothing balances the loads, smaller steps do not help";
+
 /// The residual is the same as so many iterations before, in the last ones.
 bool comes_again(std::span<const IterationReport> history, std::size_t period) {
   constexpr std::size_t enough = 6;
@@ -177,6 +180,8 @@ Error cut_no_further(const Error& error, int times) {
   message.insert(
       std::min(message.find('\n'), message.size()),
       fmt::format("; the step has been cut {} time{}, and may not be cut again", times, times == 1 ? "" : "s"));
+  if (error.hint().find(smaller_steps_may_not_help) != std::string::npos)
+    return Error(error.code(), message, error.hint());
   return Error(error.code(), message,
                error.hint() + (error.hint().empty() ? "" : "; or ") +
                    "let steps be cut further (SUBD_NIVEAU, SUBD_PAS_MINI of ECHEC, PAS_MINI)");
@@ -188,10 +193,8 @@ Error advised(const Error& error, const StaticProblem& problem, const std::strin
   if (is_failure_of_step(error.code()) && !unheld.empty() && !is_told) {
     const bool is_noted = message.find(note) != std::string::npos;
     const std::size_t end = std::min(message.find('\n'), message.size());
-    return Error(
-        error.code(), message.substr(0, end) + (is_noted ? "" : note) + message.substr(end),
-        error.hint() + (error.hint().empty() ? "" : "; or ") +
-            "hold by DDL_IMPO what contact does not: where nothing balances the loads, smaller steps do not help");
+    return Error(error.code(), message.substr(0, end) + (is_noted ? "" : note) + message.substr(end),
+                 error.hint() + (error.hint().empty() ? "" : "; or ") + std::string(smaller_steps_may_not_help));
   }
   const bool has_inequalities = !problem.unilateral.empty() || (problem.contact && !is_condensed(*problem.contact));
   if (error.code() != "singular-matrix" || !has_inequalities) return error;

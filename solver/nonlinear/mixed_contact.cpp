@@ -189,7 +189,7 @@ std::shared_ptr<const ContactMemory> MixedContact::memory() const {
       std::ranges::any_of(definition_.zones, [](const ContactZone& zone) { return zone.mixed.bilateral; });
   if (!is_bilateral && !penalties_.are_raised()) return nullptr;
   std::vector<ZoneMemory> zones = zone_definitions();
-  for (std::size_t p = 0; p < points().size(); ++p)
+  for (std::size_t p = 0; p < points().size() && is_bilateral; ++p)
     zones[static_cast<std::size_t>(points()[p].zone)].points.push_back(remembered(p));
   return std::make_shared<const ContactMemory>(ContactMemory{std::move(zones), penalties_});
 }
@@ -216,9 +216,19 @@ std::vector<char> MixedContact::held_points() {
   const auto memory = std::exchange(resumed_, nullptr);
   if (!memory) return held;
   const std::vector<ZoneMemory> zones = zone_definitions();
-  for (std::size_t p = 0; p < points().size(); ++p) {
-    const ZoneMemory& zone = zones[static_cast<std::size_t>(points()[p].zone)];
-    held[p] = zone.bilateral && memory->held(remembered(p), zone, extent(mesh_, points()[p].cell));
+  for (std::size_t zone = 0; zone < zones.size(); ++zone) {
+    if (!zones[zone].bilateral) continue;
+    std::vector<std::size_t> own;
+    std::vector<RememberedPoint> of_zone;
+    std::vector<double> reach;
+    for (std::size_t p = 0; p < points().size(); ++p) {
+      if (points()[p].zone != static_cast<int>(zone)) continue;
+      own.push_back(p);
+      of_zone.push_back(remembered(p));
+      reach.push_back(extent(mesh_, points()[p].cell));
+    }
+    const std::vector<char> was_held = memory->held(of_zone, zones[zone], reach);
+    for (std::size_t k = 0; k < own.size(); ++k) held[own[k]] = was_held[k];
   }
   return held;
 }

@@ -25,6 +25,7 @@ std::optional<int> StaticRun::try_step(double instant, StepSequence& sequence) {
     const StepEvent* event = watch_->event_behind(error.code());
     if (event == nullptr && !is_failure_of_step(error.code())) throw advised(error, problem_, tangent_.unheld());
     if (event ? !event->cutting || !sequence.cut(*event->cutting, watch_->share_of_step()) : !sequence.cut()) {
+      if (event && !event->cutting) throw;
       if (event) throw cut_no_further(error, sequence.depth());
       // In a part of a step contact has been settled already.
       if (sequence.is_part()) throw cut_no_further(advised(error, problem_, tangent_.unheld()), sequence.depth());
@@ -156,7 +157,7 @@ int StaticRun::solve_telling_when(double instant) {
     return solve_step(instant);
   } catch (const Error& error) {
     const std::string message = error.what();
-    const bool knows_none = error.code() == "contact-cycling" || error.code() == "integration-failure";
+    const bool knows_none = error.code() != "no-convergence" && is_failure_of_step(error.code());
     if (!knows_none || message.find(" t = ") != std::string::npos) throw;
     throw Error(error.code(), fmt::format("{}, in the step to t = {:.6g}", message, instant), error.hint());
   }
