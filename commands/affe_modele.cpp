@@ -65,9 +65,9 @@ std::string fitting_modelisations(const Keywords& assignment, const solver::Mesh
     case 3:
       return "volumes are bodies with 3D";
     case 2:
-      return "surfaces are bodies with D_PLAN, C_PLAN or AXIS, triangles and quadrangles plates with DKT";
+      return "surfaces are bodies with D_PLAN, C_PLAN or AXIS, TRIA3 and QUAD4 plates with DKT or DST";
     default:
-      return "segments are bars and beams (BARRE, POU_D_T), points and segments springs (DIS_T)";
+      return "segments are bars and beams (BARRE, POU_D_T), points and segments springs (DIS_T, 2D_DIS_T)";
   }
 }
 

@@ -224,7 +224,7 @@ class LiveTable {
     if (!report.event.empty()) return show_event(report);
     instant_ = report.instant;
     if (begins_anew && !explained_)
-      console_.progress("  * contact is paired on the surfaces as they have moved, iterations begin anew");
+      console_.progress("  * iterations begin anew, as a rule on surfaces paired as they have moved");
     explained_ = explained_ || begins_anew;
     // Where nothing is loaded there is no share of the loads.
     const std::string relative = report.relative_residual < 0.0 ? "-" : fmt::format("{:.1e}", report.relative_residual);

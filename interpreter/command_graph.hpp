@@ -44,6 +44,7 @@ struct CommandNode {
   std::vector<Edge> waits_for;
   std::vector<int> reads;  ///< ids of the concepts that its keywords name
   NodeState state = NodeState::waiting;
+  bool has_run = false;   ///< though it may have failed
   bool caught = false;    ///< inside try: the file itself deals with what goes wrong
   bool left_out = false;  ///< a command that only writes, and that comma does not run
   bool forgiven = false;  ///< it failed inside try: what it left may still be read

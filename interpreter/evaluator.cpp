@@ -321,6 +321,7 @@ void Evaluator::assign_items(const SequenceNode& target, const Value& value) {
 // Errors
 
 void Evaluator::report(const Diagnostic& finding) {
+  doubt();  // it would end a run
   if (finding.span) {
     const auto place = static_cast<std::uint64_t>(finding.span.begin) << 32 | finding.span.end;
     if (!reported_places_.emplace(finding.span.file.get(), place).second) {

@@ -146,6 +146,7 @@ Value Evaluator::evaluate_logical(const LogicalNode& node) {
   Value value;
   for (const NodePtr& operand : node.operands) {
     value = evaluate(*operand);
+    if (value.is_unknown()) doubt();
     if (value.is_unknown() || truth(value) != node.conjunction) return value;
   }
   return value;
@@ -166,7 +167,10 @@ Value Evaluator::evaluate_compare(const CompareNode& node) {
 
 Value Evaluator::evaluate_conditional(const ConditionalNode& node) {
   const Value condition = evaluate(*node.condition);
-  if (condition.is_unknown()) return condition;
+  if (condition.is_unknown()) {
+    doubt();
+    return condition;
+  }
   return evaluate(truth(condition) ? *node.then : *node.otherwise);
 }
 

@@ -143,6 +143,7 @@ Evaluator::Flow Evaluator::execute_broken(const BrokenStatement& statement) {
 
 /// Neither branch is taken, since nobody knows which: what either would bind is unknown.
 Evaluator::Flow Evaluator::skip_unknown(const Statement& statement) {
+  doubt();
   forget_bound(statement);
   const Exits exits = exits_of(statement);
   if (exits.returns && calls_ > 0) {
@@ -259,6 +260,7 @@ Evaluator::Flow Evaluator::execute_body(const TryStatement& statement) {
   if (statement.handlers.empty()) return execute(statement.body);
   std::optional<RaisedError> caught;
   const TryStatement::Handler* handler = nullptr;
+  if (!host_.runs_calls()) doubt();  // an error that is handled, or not met
   const std::uint64_t left_alone = calls_left_alone_;
   try {
     const Counted inside(tries_);
@@ -312,6 +314,7 @@ Evaluator::Flow Evaluator::execute_with(const WithStatement& statement) {
           "files are declared in the .export and read by commands");
   }
   if (statement.target) assign(*statement.target, manager);
+  if (!host_.runs_calls()) doubt();
   try {
     const Counted inside(tries_);
     const Flow flow = execute(statement.body);

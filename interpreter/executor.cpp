@@ -98,10 +98,10 @@ void Executor::run_begun(Need least, int count) {
   const auto needs = graph_.needs();
   const std::span<CommandNode> begun(graph_.nodes().data(), static_cast<std::size_t>(count));
   const auto solves = [](const CommandNode& node) { return node.cost == Cost::solve; };
-  const auto has_tried = [&](const CommandNode& node) { return solves(node) && node.state != NodeState::waiting; };
-  const auto has_failed = [&](const CommandNode& node) { return solves(node) && is_reported(node); };
-  if (std::ranges::none_of(begun, has_tried)) return;
-  const bool may_solve = std::ranges::any_of(begun, has_failed);
+  const auto last = std::ranges::find_if(begun.rbegin(), begun.rend(),
+                                         [&](const CommandNode& node) { return solves(node) && node.has_run; });
+  if (last == begun.rend()) return;
+  const bool may_solve = last->state == NodeState::failed;
   for (CommandNode& node : begun) {
     if (!may_solve && is_reported(node)) return;
     run_or_skip(node, needs[static_cast<std::size_t>(node.id)] >= least && (may_solve || !solves(node)));
@@ -165,6 +165,11 @@ bool Executor::force(int id) {
   return true;
 }
 
+bool Executor::is_ready(int id) const {
+  const CommandNode& node = graph_.nodes()[static_cast<std::size_t>(id)];
+  return node.state == NodeState::waiting && is_in_turn(node) && can_run(node);
+}
+
 bool Executor::is_cheap(int id) const {
   return std::ranges::all_of(graph_.required_by(id), [&](int required) {
     const CommandNode& node = graph_.nodes()[static_cast<std::size_t>(required)];
@@ -178,6 +183,7 @@ void Executor::run(CommandNode& node) {
   if (before_run_) before_run_(node);
   const Diagnostics::LaterWork scope(diagnostics_, node.called_from);
   const auto start = std::chrono::steady_clock::now();
+  node.has_run = true;
   ++running_;
   const auto stop_clock = [&] {
     --running_;

@@ -47,7 +47,8 @@ class Executor {
   void run_all(Need least);
 
   /// The same for the first `count` nodes of a file that goes wrong after them, once the file itself has asked for a
-  /// solution: what has been solved is written and judged. Nothing more is solved unless a solution is what failed.
+  /// solution: what has been solved is written and judged. Nothing more is solved unless the last solution is what
+  /// failed.
   void run_begun(Need least, int count);
 
   /// Runs a node and what it depends on, each once. The first failure ends it: inside of `try` it is thrown as a
@@ -59,6 +60,8 @@ class Executor {
   /// Runs it if nothing that comes before it is still to run.
   void run_in_turn(int id);
 
+  /// Whether all that `id` builds on has run, and nothing that comes before it is still to run.
+  bool is_ready(int id) const;
   /// Whether all that `id` still waits for is cheap.
   bool is_cheap(int id) const;
 

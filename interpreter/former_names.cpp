@@ -14,6 +14,9 @@ constexpr std::string_view in_behaviour = "it belongs to COMPORTEMENT now",
                            by_verdict =
                                "VALE_CALC compares with what was computed before, and VALE_REFE besides with a "
                                "reference from elsewhere (REFERENCE, PRECISION)",
+                           by_verdict_i = "VALE_CALC_I compares with what was computed before",
+                           by_verdict_c = "VALE_CALC_C compares with what was computed before",
+                           by_verdict_k = "VALE_CALC_K compares with what was computed before",
                            leave_out = "leave it out: it is not needed any more";
 
 const std::map<Key, std::string_view>& keywords() {
@@ -40,13 +43,13 @@ const std::map<Key, std::string_view>& keywords() {
       {{"TEST_TABLE", "VALE"}, by_verdict},
       {{"TEST_FONCTION/VALEUR", "VALE"}, by_verdict},
       {{"TEST_RESU/RESU", "VALE_R"}, by_verdict},
-      {{"TEST_RESU/RESU", "VALE_I"}, by_verdict},
-      {{"TEST_RESU/RESU", "VALE_C"}, by_verdict},
-      {{"TEST_RESU/RESU", "VALE_K"}, by_verdict},
+      {{"TEST_RESU/RESU", "VALE_I"}, by_verdict_i},
+      {{"TEST_RESU/RESU", "VALE_C"}, by_verdict_c},
+      {{"TEST_RESU/RESU", "VALE_K"}, by_verdict_k},
       {{"TEST_TABLE", "VALE_R"}, by_verdict},
-      {{"TEST_TABLE", "VALE_I"}, by_verdict},
-      {{"TEST_TABLE", "VALE_C"}, by_verdict},
-      {{"TEST_TABLE", "VALE_K"}, by_verdict},
+      {{"TEST_TABLE", "VALE_I"}, by_verdict_i},
+      {{"TEST_TABLE", "VALE_C"}, by_verdict_c},
+      {{"TEST_TABLE", "VALE_K"}, by_verdict_k},
       {{"STAT_NON_LINE", "PARM_THETA"}, in_behaviour},
       {{"STAT_NON_LINE/CONVERGENCE", "RESI_INTE_RELA"}, in_behaviour},
       {{"STAT_NON_LINE/CONVERGENCE", "ITER_INTE_MAXI"}, in_behaviour},
@@ -69,7 +72,8 @@ std::string hint_on_former_keyword(std::string_view level, std::string_view keyw
 }
 
 std::string of_former_keyword(std::string_view level, std::string_view keyword) {
-  return hint_on_former_keyword(level, keyword) == by_verdict ? "VALE_CALC" : "";
+  const std::string hint = hint_on_former_keyword(level, keyword);
+  return hint.starts_with("VALE_CALC") ? hint.substr(0, hint.find(' ')) : "";
 }
 
 std::string of_former_field(std::string_view name) {

@@ -89,6 +89,7 @@ bool Evaluator::Generator::passes(const ComprehensionNode::Clause& clause) {
   for (const NodePtr& condition : clause.conditions) {
     const Value value = evaluator_.evaluate(*condition);
     met_unknown_ = met_unknown_ || value.is_unknown();
+    if (value.is_unknown()) evaluator_.doubt();
     if (value.is_unknown() || !truth(value)) return false;
   }
   return true;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "interpreter/expression_keywords.hpp"
@@ -21,7 +22,11 @@ Session::Session(const Catalogue& catalogue, const CommandTable& commands, Diagn
                  SessionOptions options)
     : catalogue_(catalogue), diagnostics_(diagnostics), options_(options), executor_(graph_, commands, diagnostics) {
   executor_.set_before_run([this](const CommandNode& node) {
-    if (speaks(node)) write_printed(static_cast<std::size_t>(node.id));
+    if (node.cost == Cost::solve) {
+      if (const auto look_ahead = std::exchange(look_ahead_, nullptr)) look_ahead();
+      solving_has_begun_ = true;
+    }
+    if (speaks(node)) write_printed(std::min(static_cast<std::size_t>(node.id), first_to_speak()));
   });
 }
 
@@ -30,7 +35,7 @@ bool Session::is_command(std::string_view name) const { return catalogue_.has(na
 std::vector<std::string> Session::command_names() const { return catalogue_.names(); }
 
 Value Session::call(const CommandCall& written, bool eager) {
-  const Severity unsupported = options_.check_only ? Severity::alarm : Severity::error;
+  const Severity unsupported = options_.check_only && !options_.strict ? Severity::alarm : Severity::error;
   if (!catalogue_.has(written.name)) {
     MissingCommand missing = missing_command(written.name, catalogue_.names());
     const Severity severity = is_foreign_command(written.name) ? unsupported : Severity::error;
@@ -111,21 +116,34 @@ void Session::before_binding(std::string_view name) {
 
 void Session::print(std::string_view text) {
   if (!output_) return;
-  if (runs_calls() && !executor_.is_running() && is_anything_said_later()) {
-    printed_[graph_.nodes().size()] += text;
+  if (executor_.is_running() || options_.check_only) {
+    output_(text);
     return;
   }
-  if (!executor_.is_running()) write_printed(graph_.nodes().size());
-  output_(text);
+  if (diagnostics_.has_errors()) return;
+  let_speak();
+  printed_[graph_.nodes().size()] += text;
+  write_printed(first_to_speak());
 }
 
-bool Session::is_anything_said_later() {
+std::size_t Session::first_to_speak() {
   const auto& nodes = graph_.nodes();
   const auto will_speak = [](const CommandNode& node) {
     return speaks(node) && node.complete && node.state == NodeState::waiting;
   };
   while (first_to_speak_ < nodes.size() && !will_speak(nodes[first_to_speak_])) ++first_to_speak_;
-  return first_to_speak_ < nodes.size();
+  return first_to_speak_;
+}
+
+void Session::let_speak() {
+  if (!solving_has_begun_ || options_.only_tests) return;
+  while (first_to_speak() < graph_.nodes().size()) {
+    CommandNode& node = graph_.nodes()[first_to_speak_];
+    if (node.cost == Cost::solve || !executor_.is_ready(node.id)) return;
+    if (call_check_ && !call_check_(node)) return;
+    executor_.run_now(node.id);
+    if (node.state == NodeState::waiting) return;
+  }
 }
 
 void Session::write_printed(std::size_t nodes) {
@@ -139,6 +157,7 @@ void Session::judge(const Assertion& assertion) {
 }
 
 void Session::finish() {
+  look_ahead_ = nullptr;
   const Need least = options_.only_tests ? Need::output : Need::nothing;
   executor_.run_cheap(least, options_.check_only, call_check_);
   if (options_.check_only) return;  // and nothing that was printed waits
@@ -158,11 +177,6 @@ ConceptPtr Session::make_concept(const std::string& type, const std::string& nam
   return handle;
 }
 
-bool Session::may_run(int node) {
-  if (executor_.is_cheap(node)) return true;
-  if (!runs_calls()) return false;
-  if (const auto look_ahead = std::exchange(look_ahead_, nullptr)) look_ahead();
-  return true;
-}
+bool Session::may_run(int node) const { return executor_.is_cheap(node) || runs_calls(); }
 
 }  // namespace comma::interpreter

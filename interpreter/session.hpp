@@ -19,6 +19,7 @@ namespace comma::interpreter {
 struct SessionOptions {
   bool check_only = false;  ///< run what is cheap, solve nothing; what comma does not support is an alarm, not an error
   bool only_tests = false;  ///< leave out what no verdict and no output needs
+  bool strict = false;      ///< what a call asks for and comma does not support is an error in a check too
 };
 
 /// What becomes of the file's own assertions.
@@ -46,7 +47,8 @@ class Session : public CommandHost {
   bool runs_calls() const override { return !options_.check_only && !diagnostics_.has_errors(); }
   void judge(const Assertion& assertion) override;
 
-  /// What print() says. It is written in the file's order among what commands say: not before those that still wait.
+  /// What print() says. It is written in the file's order among what commands say, not before those that still wait:
+  /// of these what writes and judges runs then, if what it reads is there. Behind an error nothing is said any more.
   void print(std::string_view text);
   /// Where it goes; nowhere without one.
   void set_output(std::function<void(std::string_view)> output) { output_ = std::move(output); }
@@ -65,9 +67,12 @@ class Session : public CommandHost {
   void prepare_with(const CommandTable& preparations) { executor_.prepare_with(preparations); }
   /// Looks at each call before anything is solved; see Executor::run_cheap.
   void set_call_check(CallCheck check) { call_check_ = std::move(check); }
-  /// Called once, before the first solution that the file asks for while it is being read. It may throw what ends the
-  /// run there.
+  /// Called once, when the first solution that the file asks for while it is being read is about to run. It may throw
+  /// what ends the run there.
   void look_ahead_with(std::function<void()> look_ahead) { look_ahead_ = std::move(look_ahead); }
+
+  /// All that was printed and waits, whatever is still to run.
+  void write_printed() { write_printed(graph_.nodes().size()); }
 
   /// After the last statement: runs the graph. First what is cheap, so that a group which does not exist is found
   /// before anything is solved; then, if all is right so far, the rest. Where an error comes after the file has asked
@@ -78,10 +83,14 @@ class Session : public CommandHost {
 
  private:
   ConceptPtr make_concept(const std::string& type, const std::string& name, const Span& span);
-  bool may_run(int node);
+  bool may_run(int node) const;
   void name_files();
   void spoil_reused(const CommandCall& call);
-  bool is_anything_said_later();
+  /// The first node that is still to say something, or how many there are.
+  std::size_t first_to_speak();
+  /// Runs those that only write or judge and wait for nothing, once the file has asked for a solution: before, nothing
+  /// runs until the whole file is known to be right.
+  void let_speak();
   /// Writes what was printed before the first so many nodes were all.
   void write_printed(std::size_t nodes);
 
@@ -97,6 +106,7 @@ class Session : public CommandHost {
   std::function<void()> look_ahead_;
   LateCalls late_calls_;
   int nodes_before_errors_ = 0;
+  bool solving_has_begun_ = false;
   std::function<void(std::string_view)> output_;
   /// What was printed and has to wait, by the number of nodes then.
   std::map<std::size_t, std::string> printed_;

@@ -108,30 +108,40 @@ StudyRun::StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions
 
 void StudyRun::run() {
   try {
-    read_and_run();
+    read_files();
   } catch (const FoundAhead& ahead) {
+    session_.write_printed();
     diagnostics_ = {};
     for (const Diagnostic& finding : ahead.findings) diagnostics_.add(finding);
+    return;
   }
+  session_.finish();
+  if (evaluator_->failed_exit()) diagnostics_.add(*evaluator_->failed_exit());
+  if (!diagnostics_.has_errors()) warn_of_unused_loads();
 }
 
+/// What a check finds up to where it cannot know the way that a run takes. Errors of the Python part are left to the
+/// run.
 void StudyRun::look_ahead() {
-  StudyRun check(study_, Verbosity::quiet, {.check_only = true}, limits_);
+  struct Doubt {};
+  StudyRun check(study_, Verbosity::quiet, {.check_only = true, .strict = true}, limits_);
   check.session_.set_output({});
   check.session_.set_assertion_sink({});
-  check.read_and_run();
+  check.evaluator_->on_doubt([] { throw Doubt(); });
+  try {
+    check.read_files();
+  } catch (const Doubt&) {
+  }
+  check.session_.finish();
   if (check.diagnostics_.has_errors()) throw FoundAhead{check.diagnostics_.items()};
 }
 
-void StudyRun::read_and_run() {
+void StudyRun::read_files() {
   for (const fs::path& file : study_.command_files) {
     ++files_begun_;
     evaluator_->run(read(file));
     if (evaluator_->failed_exit()) break;
   }
-  session_.finish();
-  if (evaluator_->failed_exit()) diagnostics_.add(*evaluator_->failed_exit());
-  if (!diagnostics_.has_errors()) warn_of_unused_loads();
 }
 
 /// A load that was forgotten among those of a computation leaves no other trace.

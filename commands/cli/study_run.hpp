@@ -35,7 +35,7 @@ class StudyRun {
   const Context& context() const { return context_; }
 
  private:
-  void read_and_run();
+  void read_files();
   void look_ahead();
   interpreter::Ast read(const std::filesystem::path& file);
   void warn_of_unused_loads();

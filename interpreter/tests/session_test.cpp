@@ -227,7 +227,7 @@ TEST_CASE("The rest of the file is looked at once before a solution that it asks
   for (const char* name : {"R1", "R2"}) world.session.force(world.call("SOLVE", {{"MODEL", model}}, name).as_concept());
   world.call("SOLVE", {{"MODEL", model}}, "R3");
   world.session.finish();
-  CHECK(world.log == Log{"MESH MA", "look", "MODEL MO", "SOLVE R1", "SOLVE R2", "SOLVE R3"});
+  CHECK(world.log == Log{"MESH MA", "MODEL MO", "look", "SOLVE R1", "SOLVE R2", "SOLVE R3"});
 }
 
 TEST_CASE("What stands before an error is written and judged where the file has asked for what is solved") {
