@@ -126,7 +126,7 @@ Members members_of_code_aster() {
 /// Code_Aster's alarms, which comma does not have, are neither hidden nor shown.
 Value ignore(Evaluator&, const CallArguments&) { return Value(); }
 
-/// UTMESS(kind, id, ...): a message of Code_Aster, whose words comma does not have; of the kinds E, F and S it ends
+/// UTMESS(kind, id, ...): a message of Code_Aster, whose words comma does not have; of the kinds E, F, S and Z it ends
 /// what is done.
 Value show_message(Evaluator& evaluator, const CallArguments& arguments) {
   if (arguments.size() < 2 || !arguments[0].is_text() || !arguments[1].is_text())

@@ -156,15 +156,6 @@ void warn_of_missing_expansion(const interpreter::Call& call, const solver::Stat
   }
 }
 
-bool is_empty_of_loads(const solver::Load& load) {
-  const auto holds = [](const solver::LinearRelation& each) { return each.value == 0.0 && !each.function; };
-  return std::ranges::all_of(load.relations, holds) && load.nodal_forces.empty() && load.pressures.empty() &&
-         load.distributed_forces.empty() && load.beam_forces.empty() && load.gravities.empty() &&
-         load.rotations.empty() && load.initial_strains.empty() && load.initial_slender_strains.empty() &&
-         load.initial_plate_strains.empty() && load.initial_strain_fields.empty() &&
-         load.initial_stress_fields.empty() && load.plate_forces.empty();
-}
-
 void warn_of_missing_data(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
   if (!problem.materials) return;
   warn_of_missing_density(call, problem, context);
@@ -412,11 +403,12 @@ void warn_of_loads_at_the_start(const interpreter::Call& call, const solver::Sta
                                 Context& context) {
   if (call.given("INST") || call.given("LIST_INST") || !problem.materials->variables.empty()) return;
   const auto vanishes = [&](const solver::AppliedLoad& each) {
-    return is_empty_of_loads(*each.load) || (each.multiplier && each.multiplier(instant) == 0.0);
+    return solver::only_holds(*each.load) || (each.multiplier && each.multiplier(instant) == 0.0);
   };
   if (!std::ranges::all_of(problem.loads, vanishes)) return;
   for (const interpreter::Keywords& excitation : call.factors("EXCIT")) {
-    if (!excitation.has("FONC_MULT") || is_empty_of_loads(*excitation.data<LoadConcept>("CHARGE").load.get())) continue;
+    if (!excitation.has("FONC_MULT") || solver::only_holds(*excitation.data<LoadConcept>("CHARGE").load.get()))
+      continue;
     context.diagnostics.alarm(
         "no-load",
         fmt::format("{}: all loads vanish at INST={}, which is computed where no instant is given: nothing moves",

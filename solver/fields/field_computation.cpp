@@ -171,6 +171,10 @@ const Field& FieldComputation::needed(const std::string& name, std::size_t step)
     if (result_.steps[step].limited.contains(name)) limited_sources_.insert(name);
     return found->second;
   }
+  return computed(name, step);
+}
+
+const Field& FieldComputation::computed(const std::string& name, std::size_t step) {
   if (step < others_.begin || step >= others_.end) return others_.field(name, step);
   const Key key(step, name);
   if (const auto found = known_.find(key); found != known_.end()) return found->second;
@@ -191,12 +195,7 @@ bool FieldComputation::holds_whole(const std::string& name, std::size_t step) co
 }
 
 const Field& FieldComputation::whole(const std::string& name, std::size_t step) {
-  if (holds_whole(name, step) || !knows(name)) return needed(name, step);
-  if (step < others_.begin || step >= others_.end) return others_.field(name, step);
-  const Key key(step, name);
-  if (const auto found = known_.find(key); found != known_.end()) return found->second;
-  Field field = derive(name, step);
-  return known_.emplace(key, std::move(field)).first->second;
+  return holds_whole(name, step) || !knows(name) ? needed(name, step) : computed(name, step);
 }
 
 const ElementField& FieldComputation::whole_field(const std::string& name, std::size_t step) {

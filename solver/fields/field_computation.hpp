@@ -58,6 +58,8 @@ class FieldComputation {
   /// The same, but computed anew where the step holds it of some cells only: what adds up from step to step or over a
   /// cell, and what compares steps, takes this one.
   const Field& whole(const std::string& name, std::size_t step);
+  /// One that the step need not hold.
+  const Field& computed(const std::string& name, std::size_t step);
 
   /// The fields of the steps that have been taken as they are and lie on some cells only: what was computed from them
   /// lacks the rest.
@@ -90,7 +92,7 @@ class FieldComputation {
   ElementField plate_forces(std::size_t step);
   ElementField whole_plate_forces(std::size_t step);
   ElementField layer_strains_of(const ElementField& plate_forces) const;
-  /// SIEF_ELNO, with the forces of plates at their corners.
+  /// Stresses and forces of elements at their nodes, with the forces of plates at their corners.
   ElementField forces_at_nodes(std::size_t step);
   Field section_force_field(std::size_t step);
   Field end_forces(std::size_t step);

@@ -208,9 +208,10 @@ Eigen::Matrix3d least_rolled(const Eigen::Vector3d& first, const Eigen::Vector3d
 
 // Of the axes of the mesh the projection of the one that lies best across another axis.
 Eigen::Vector3d first_axis_across(const Eigen::Vector3d& normal) {
+  constexpr double rounding = 1e-9;  // axes that lie across equally well: the first
   int best = 0;
   for (int i = 1; i < 3; ++i)
-    if (std::abs(normal[i]) < std::abs(normal[best]) - same_moments) best = i;
+    if (std::abs(normal[i]) < std::abs(normal[best]) - rounding) best = i;
   const Eigen::Vector3d axis = Eigen::Vector3d::Unit(best);
   return (axis - axis.dot(normal) * normal).normalized();
 }

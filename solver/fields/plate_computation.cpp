@@ -1,6 +1,7 @@
 // The part of FieldComputation that computes what plates have beside the fields of other elements.
 #include <algorithm>
 #include <array>
+#include <ranges>
 
 #include "solver/fields/extrapolation.hpp"
 #include "solver/fields/field_algebra.hpp"
@@ -12,15 +13,26 @@
 
 namespace comma::solver {
 
+namespace {
+
+bool is_plate_cell(const Model& model, int cell) {
+  return is_plate(model.formulations[static_cast<std::size_t>(cell)]) && !model.is_skin(cell);
+}
+
+}  // namespace
+
 std::vector<int> FieldComputation::plates() const {
   const Model& model = *problem_.model;
   std::vector<int> cells;
   for (int cell = 0; cell < model.mesh->cell_count(); ++cell)
-    if (is_plate(model.formulations[static_cast<std::size_t>(cell)]) && !model.is_skin(cell)) cells.push_back(cell);
+    if (is_plate_cell(model, cell)) cells.push_back(cell);
   return cells;
 }
 
-bool FieldComputation::has_plates() const { return !plates().empty(); }
+bool FieldComputation::has_plates() const {
+  return std::ranges::any_of(std::views::iota(0, problem_.model->mesh->cell_count()),
+                             [&](int cell) { return is_plate_cell(*problem_.model, cell); });
+}
 
 Field FieldComputation::stress_field_at_points(std::size_t step) {
   if (!has_plates()) return continuum_stresses(element_field("SIEF_ELGA", step));

@@ -1,6 +1,7 @@
 // Loads and kinematic conditions as data. The commands layer fills them; nonlinear/ assembles them.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -152,6 +153,16 @@ struct Load {
   std::vector<std::shared_ptr<const ElementField>> initial_stress_fields;
   std::vector<PlateForce> plate_forces;
 };
+
+/// Whether nothing of it moves a body at any time: conditions that hold it, and no more.
+inline bool only_holds(const Load& load) {
+  const auto holds = [](const LinearRelation& each) { return each.value == 0.0 && !each.function; };
+  return std::ranges::all_of(load.relations, holds) && load.nodal_forces.empty() && load.pressures.empty() &&
+         load.distributed_forces.empty() && load.beam_forces.empty() && load.gravities.empty() &&
+         load.rotations.empty() && load.initial_strains.empty() && load.initial_slender_strains.empty() &&
+         load.initial_plate_strains.empty() && load.initial_strain_fields.empty() &&
+         load.initial_stress_fields.empty() && load.plate_forces.empty();
+}
 
 /// A load as a computation applies it.
 struct AppliedLoad {

@@ -7,6 +7,7 @@
 
 #include "solver/error.hpp"
 #include "solver/mesh/groups.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::solver {
 namespace {
@@ -161,16 +162,13 @@ std::vector<int> nodes_along_line(const Mesh& mesh, std::span<const int> cells, 
 bool lie_on_a_line(const Mesh& mesh, std::span<const int> nodes) {
   constexpr double rounding = 1e-6;
   if (nodes.size() < 3) return false;
-  const auto place = [&](int node) {
-    return Eigen::Vector3d(Eigen::Map<const Eigen::Vector3d>(mesh.nodes[static_cast<std::size_t>(node)].data()));
-  };
-  const Eigen::Vector3d first = place(nodes.front());
-  const int far = *std::ranges::max_element(nodes, {}, [&](int node) { return (place(node) - first).norm(); });
-  const double length = (place(far) - first).norm();
+  const Eigen::Vector3d first = place(mesh, nodes.front());
+  const int far = *std::ranges::max_element(nodes, {}, [&](int node) { return (place(mesh, node) - first).norm(); });
+  const double length = (place(mesh, far) - first).norm();
   if (length == 0.0) return false;
-  const Eigen::Vector3d along = (place(far) - first) / length;
-  return std::ranges::all_of(nodes,
-                             [&](int node) { return (place(node) - first).cross(along).norm() <= rounding * length; });
+  const Eigen::Vector3d along = (place(mesh, far) - first) / length;
+  return std::ranges::all_of(
+      nodes, [&](int node) { return (place(mesh, node) - first).cross(along).norm() <= rounding * length; });
 }
 
 std::optional<int> node_out_of_order(const Mesh& mesh, std::span<const int> nodes) {
