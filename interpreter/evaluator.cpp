@@ -321,7 +321,6 @@ void Evaluator::assign_items(const SequenceNode& target, const Value& value) {
 // Errors
 
 void Evaluator::report(const Diagnostic& finding) {
-  doubt();  // it would end a run
   if (finding.span) {
     const auto place = static_cast<std::uint64_t>(finding.span.begin) << 32 | finding.span.end;
     if (!reported_places_.emplace(finding.span.file.get(), place).second) {
@@ -329,6 +328,7 @@ void Evaluator::report(const Diagnostic& finding) {
       return;
     }
   }
+  if (finding.code != "unknown-command") doubt();  // it would end a run, for which nobody knows what comes before
   diagnostics_.add(finding);
 }
 

@@ -36,9 +36,13 @@ class Evaluator {
   /// Runs another file from within one that runs, as if its statements stood at the place of the call (INCLUDE). The
   /// tree must outlive the run.
   void include(const Ast& ast);
-  /// Called, if at all, before a check goes on where a run might take another way: what it finds from there on need not
-  /// be wrong. It may throw what ends the reading.
-  void on_doubt(std::function<void()> act) { on_doubt_ = std::move(act); }
+  /// Up to where a check knows that a run takes the same way: findings and calls before.
+  struct Certain {
+    std::size_t findings = 0, calls = 0;
+  };
+  /// Called, if at all, where a check goes on with what it does not know, other than to print it or keep it in a
+  /// variable: what it finds from there on need not be wrong. It may throw what ends the reading.
+  void on_doubt(std::function<void(const Certain&)> act) { on_doubt_ = std::move(act); }
   /// One expression; names are looked for with `lookup` first, then as everywhere: globals, builtins, commands, the
   /// names of `math`. Throws DiagnosticError.
   Value evaluate(const Node& expression, const std::shared_ptr<const SourceFile>& file, const VariableLookup& lookup);
@@ -84,8 +88,11 @@ class Evaluator {
   void forget_handlers(const TryStatement& statement);
   void spoil_reused(const CallArguments& arguments);
   void doubt() const {
-    if (on_doubt_) on_doubt_();
+    if (on_doubt_) on_doubt_(certain_);
   }
+  /// Whether all that is unknown after the statement is known to be so.
+  bool keeps_unknown(const Statement& statement);
+  Flow execute_statement(const Statement& statement);
   Flow execute_handler(const TryStatement::Handler& handler, const RaisedError& error);
   Flow execute_broken(const BrokenStatement& statement);
   Flow skip_unknown(const Statement& statement);
@@ -197,7 +204,9 @@ class Evaluator {
   bool names_lost_ = false;                   ///< an unknown name may be one that a broken statement would have bound
   std::size_t errors_seen_ = 0;               ///< how many diagnostics `failures_` has counted
   int tries_ = 0;
-  std::function<void()> on_doubt_;
+  std::function<void(const Certain&)> on_doubt_;
+  Certain certain_;
+  bool met_unknown_ = false;            ///< in the statement that runs
   std::uint64_t calls_left_alone_ = 0;  ///< by a host that runs none, so that nobody knows what they would have done
   int strict_ = 0;
   int calls_ = 0;

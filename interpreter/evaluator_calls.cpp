@@ -64,6 +64,7 @@ Value Evaluator::evaluate_call(const CallNode& node) {
     const bool known = !name.global || (lookup_ != nullptr && (*lookup_)(name.id)) || globals_.contains(name.id) ||
                        builtin_value(name.id) != nullptr || math_name(name.id) != nullptr || host_.is_command(name.id);
     callee = known ? evaluate(name) : unknown_name(name, true);
+    if (known && callee.is_unknown()) doubt();
   } else {
     callee = evaluate(*node.callee);
   }

@@ -21,7 +21,9 @@ bool combines_concepts(const Value& left, const Value& right) {
 /// The innermost node that fails is where the error is.
 Value Evaluator::evaluate(const Node& node) {
   try {
-    return evaluate_node(node);
+    Value value = evaluate_node(node);
+    met_unknown_ = met_unknown_ || value.is_unknown();
+    return value;
   } catch (const RaisedError& error) {
     if (!error.object()->span) place_error(*error.object(), span_of(node));
     throw;

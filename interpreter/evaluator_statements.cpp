@@ -1,6 +1,8 @@
 // Statements: what is done, in which order, and what becomes of errors.
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "interpreter/builtins.hpp"
 #include "interpreter/evaluator.hpp"
 #include "interpreter/operations.hpp"
@@ -44,6 +46,43 @@ Evaluator::Flow Evaluator::execute_guarded(const Statement& statement) {
 }
 
 Evaluator::Flow Evaluator::execute(const Statement& statement) {
+  if (!on_doubt_) return execute_statement(statement);
+  certain_ = {diagnostics_.items().size(), host_.calls()};
+  const bool met_before = std::exchange(met_unknown_, false);
+  const Flow flow = execute_statement(statement);
+  if (met_unknown_ && !keeps_unknown(statement)) doubt();
+  met_unknown_ = met_before;
+  return flow;
+}
+
+bool Evaluator::keeps_unknown(const Statement& statement) {
+  switch (statement.kind) {
+    case StatementKind::expression: {
+      const Node& value = *static_cast<const ValueStatement&>(statement).value;
+      if (value.kind != NodeKind::call) return false;
+      const Node& callee = *static_cast<const CallNode&>(value).callee;
+      return callee.kind == NodeKind::name && static_cast<const NameNode&>(callee).id == "print";
+    }
+    case StatementKind::assign: {
+      const auto& targets = static_cast<const AssignStatement&>(statement).targets;
+      if (targets.size() != 1 || targets.front()->kind != NodeKind::name) return false;
+      const auto value = present(static_cast<const NameNode&>(*targets.front()));
+      return value && value->is_unknown();
+    }
+    case StatementKind::return_:
+      return returned_.is_unknown();
+    case StatementKind::if_:
+    case StatementKind::while_:
+    case StatementKind::for_:
+    case StatementKind::with_:
+    case StatementKind::try_:
+      return true;  // of these, the statements within
+    default:
+      return false;
+  }
+}
+
+Evaluator::Flow Evaluator::execute_statement(const Statement& statement) {
   try {
     meter_.step();
     switch (statement.kind) {
@@ -327,6 +366,7 @@ Evaluator::Flow Evaluator::execute_with(const WithStatement& statement) {
 }
 
 std::shared_ptr<ExceptionObject> Evaluator::attempt(const Value& callee, const CallArguments& arguments) {
+  if (!host_.runs_calls()) doubt();
   try {
     const Counted inside(tries_);
     call(callee, arguments);

@@ -76,6 +76,9 @@ class CommandHost {
   /// failed.
   virtual bool runs_calls() const { return true; }
 
+  /// How many calls stand in the graph.
+  virtual std::size_t calls() const { return 0; }
+
   /// Takes note of a claim, whether it holds or not. A host without verdicts has no use for it.
   virtual void judge(const Assertion& /*assertion*/) {}
 };

@@ -104,6 +104,9 @@ void Session::name_files() {
 bool Session::force(const ConceptPtr& handle) {
   const int writer = graph_.last_writer(*handle);
   if (writer >= 0 && may_run(writer) && !executor_.force(writer)) return false;
+  // What a check does not run may have been to change what is there.
+  if (writer >= 0 && !runs_calls() && graph_.nodes()[static_cast<std::size_t>(writer)].state == NodeState::waiting)
+    return false;
   if (!handle->data && handle->destroyed_at) throw destroyed_concept(*handle);
   return handle->data != nullptr;
 }
@@ -122,6 +125,7 @@ void Session::print(std::string_view text) {
   }
   if (diagnostics_.has_errors()) return;
   let_speak();
+  if (diagnostics_.has_errors()) return;
   printed_[graph_.nodes().size()] += text;
   write_printed(first_to_speak());
 }
@@ -150,6 +154,12 @@ void Session::write_printed(std::size_t nodes) {
   const auto end = printed_.upper_bound(nodes);
   for (auto text = printed_.begin(); text != end; ++text) output_(text->second);
   printed_.erase(printed_.begin(), end);
+}
+
+void Session::leave_calls_from(std::size_t count) {
+  auto& nodes = graph_.nodes();
+  for (std::size_t id = count; id < nodes.size(); ++id)
+    if (nodes[id].state == NodeState::waiting) nodes[id].state = NodeState::skipped;
 }
 
 void Session::judge(const Assertion& assertion) {

@@ -45,6 +45,9 @@ class Session : public CommandHost {
   void before_binding(std::string_view name) override;
   void spoil(const Concept& changed) override { graph_.spoil(changed); }
   bool runs_calls() const override { return !options_.check_only && !diagnostics_.has_errors(); }
+  std::size_t calls() const override { return graph_.nodes().size(); }
+  /// Those behind the first so many need not be right, and are left alone.
+  void leave_calls_from(std::size_t count);
   void judge(const Assertion& assertion) override;
 
   /// What print() says. It is written in the file's order among what commands say, not before those that still wait:

@@ -123,17 +123,24 @@ void StudyRun::run() {
 /// What a check finds up to where it cannot know the way that a run takes. Errors of the Python part are left to the
 /// run.
 void StudyRun::look_ahead() {
-  struct Doubt {};
+  using Certain = interpreter::Evaluator::Certain;
   StudyRun check(study_, Verbosity::quiet, {.check_only = true, .strict = true}, limits_);
   check.session_.set_output({});
   check.session_.set_assertion_sink({});
-  check.evaluator_->on_doubt([] { throw Doubt(); });
+  check.evaluator_->on_doubt([](const Certain& before) { throw before; });
+  std::vector<Diagnostic> findings;
   try {
     check.read_files();
-  } catch (const Doubt&) {
+  } catch (const Certain& before) {
+    const auto& all = check.diagnostics_.items();
+    findings.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(before.findings));
+    check.session_.leave_calls_from(before.calls);
+    check.diagnostics_ = {};
   }
   check.session_.finish();
-  if (check.diagnostics_.has_errors()) throw FoundAhead{check.diagnostics_.items()};
+  for (const Diagnostic& finding : check.diagnostics_.items()) findings.push_back(finding);
+  if (std::ranges::any_of(findings, [](const Diagnostic& each) { return each.severity == Severity::error; }))
+    throw FoundAhead{findings};
 }
 
 void StudyRun::read_files() {
