@@ -92,6 +92,7 @@ class Evaluator {
   }
   /// Whether all that is unknown after the statement is known to be so.
   bool keeps_unknown(const Statement& statement);
+  bool calls_command(const Node& value) const;
   Flow execute_statement(const Statement& statement);
   Flow execute_handler(const TryStatement::Handler& handler, const RaisedError& error);
   Flow execute_broken(const BrokenStatement& statement);
@@ -206,7 +207,8 @@ class Evaluator {
   int tries_ = 0;
   std::function<void(const Certain&)> on_doubt_;
   Certain certain_;
-  bool met_unknown_ = false;            ///< in the statement that runs
+  bool met_unknown_ = false;  ///< in the statement that runs
+  bool met_in_call_ = false;  ///< before its last call of a command was made: one that is wrong gives what is unknown
   std::uint64_t calls_left_alone_ = 0;  ///< by a host that runs none, so that nobody knows what they would have done
   int strict_ = 0;
   int calls_ = 0;

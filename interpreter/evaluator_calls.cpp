@@ -268,6 +268,7 @@ bool is_computed(const Value& product) { return product.is_concept() && product.
 
 Value Evaluator::call_command(const std::string& name, const CallArguments& arguments) {
   if (guests_ > 0) raise(ErrorKind::runtime, fmt::format("a function that a formula calls cannot call {}", name));
+  met_in_call_ = met_unknown_;
   CommandCall command;
   command.name = name;
   command.name_span = arguments.callee_span;

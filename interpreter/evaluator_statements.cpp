@@ -55,16 +55,25 @@ Evaluator::Flow Evaluator::execute(const Statement& statement) {
   return flow;
 }
 
+bool Evaluator::calls_command(const Node& value) const {
+  if (value.kind != NodeKind::call) return false;
+  const Node& callee = *static_cast<const CallNode&>(value).callee;
+  return callee.kind == NodeKind::name && host_.is_command(static_cast<const NameNode&>(callee).id);
+}
+
 bool Evaluator::keeps_unknown(const Statement& statement) {
   switch (statement.kind) {
     case StatementKind::expression: {
       const Node& value = *static_cast<const ValueStatement&>(statement).value;
+      if (calls_command(value)) return !met_in_call_;
       if (value.kind != NodeKind::call) return false;
       const Node& callee = *static_cast<const CallNode&>(value).callee;
       return callee.kind == NodeKind::name && static_cast<const NameNode&>(callee).id == "print";
     }
     case StatementKind::assign: {
-      const auto& targets = static_cast<const AssignStatement&>(statement).targets;
+      const auto& assignment = static_cast<const AssignStatement&>(statement);
+      if (assignment.value && calls_command(*assignment.value)) return !met_in_call_;
+      const auto& targets = assignment.targets;
       if (targets.size() != 1 || targets.front()->kind != NodeKind::name) return false;
       const auto value = present(static_cast<const NameNode&>(*targets.front()));
       return value && value->is_unknown();

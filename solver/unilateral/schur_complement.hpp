@@ -89,7 +89,7 @@ class SchurComplement {
   /// So many rows, and so many times as many as unknowns, are never multiplied out; nor are there more unknowns than so
   /// many (50 MB).
   static constexpr int factored_rows = 600;
-  static constexpr double factored_share = 2.0;
+  static constexpr double factored_share = 1.2;
   static constexpr std::size_t largest_factor = 2500;
 
  private:
