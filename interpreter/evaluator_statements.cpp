@@ -260,6 +260,7 @@ void Evaluator::execute_delete(const Node& target) {
 Evaluator::Flow Evaluator::execute_if(const IfStatement& statement) {
   for (const auto& [condition, block] : statement.branches) {
     const Value value = evaluate(*condition);
+    if (met_unknown_) doubt();
     if (value.is_unknown()) return skip_unknown(statement);
     if (truth(value)) return execute(block);
   }
@@ -271,6 +272,7 @@ Evaluator::Flow Evaluator::execute_while(const WhileStatement& statement) {
   while (true) {
     meter_.step();
     const Value condition = evaluate(*statement.condition);
+    if (met_unknown_) doubt();
     if (condition.is_unknown()) return skip_unknown(statement);
     if (!truth(condition)) return execute(statement.otherwise);
     const Flow flow = execute(statement.body);
@@ -284,6 +286,7 @@ Evaluator::Flow Evaluator::execute_while(const WhileStatement& statement) {
 Evaluator::Flow Evaluator::execute_for(const ForStatement& statement) {
   const Value iterable = evaluate(*statement.iterable);
   const std::uint64_t failures = count_failures();
+  if (met_unknown_) doubt();
   if (iterable.is_unknown()) return skip_unknown(statement);
   const auto iterator = iterate(iterable);
   while (auto value = iterator->next()) {
