@@ -66,12 +66,9 @@ void Executor::run_cheap(Need least, bool nothing_more, const CallCheck& check) 
                                             1;  // one alone runs next, and tells the same itself
   for (CommandNode& node : graph_.nodes()) {
     if (node.state != NodeState::waiting || needs[static_cast<std::size_t>(node.id)] < least) continue;
+    if (!passes(node, check)) continue;
     const Diagnostics::LaterWork scope(diagnostics_, node.called_from);
     const Diagnostics::Handled handled(diagnostics_, node.caught);
-    if (check && !check(node)) {
-      node.state = NodeState::failed;
-      continue;
-    }
     if (nothing_more && is_told_of_left_out(node)) continue;
     // What is not written has no place to be read from.
     const bool any_turn = nothing_more && node.role != Role::naming;
@@ -163,6 +160,14 @@ bool Executor::force(int id) {
   if (is_reported(last)) return false;
   if (!is_readable(last)) throw not_computed(last);
   return true;
+}
+
+bool Executor::passes(CommandNode& node, const CallCheck& check) {
+  const Diagnostics::LaterWork scope(diagnostics_, node.called_from);
+  const Diagnostics::Handled handled(diagnostics_, node.caught);
+  if (!check || check(node)) return true;
+  node.state = NodeState::failed;
+  return false;
 }
 
 bool Executor::is_ready(int id) const {

@@ -62,6 +62,8 @@ class Executor {
 
   /// Whether all that `id` builds on has run, and nothing that comes before it is still to run.
   bool is_ready(int id) const;
+  /// Whether a call is right, as far as what was made before it says; one that is wrong counts as failed.
+  bool passes(CommandNode& node, const CallCheck& check);
   /// Whether all that `id` still waits for is cheap.
   bool is_cheap(int id) const;
 

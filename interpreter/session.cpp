@@ -144,7 +144,7 @@ void Session::let_speak() {
   while (first_to_speak() < graph_.nodes().size()) {
     CommandNode& node = graph_.nodes()[first_to_speak_];
     if (node.cost == Cost::solve || !executor_.is_ready(node.id)) return;
-    if (call_check_ && !call_check_(node)) return;
+    if (!executor_.passes(node, call_check_)) return;
     executor_.run_now(node.id);
     if (node.state == NodeState::waiting) return;
   }

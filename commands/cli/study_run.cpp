@@ -57,7 +57,7 @@ bool is_one_of(const Codes& codes, const std::string& code) {
   return std::find(codes.begin(), codes.end(), code) != codes.end();
 }
 
-/// What a check of the whole file finds before anything is solved.
+/// What a look ahead finds wrong before anything is solved.
 struct FoundAhead {
   std::vector<Diagnostic> findings;
 };
