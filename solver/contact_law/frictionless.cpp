@@ -86,7 +86,7 @@ Eigen::VectorXd change_to_rest(SchurComplement& schur, const CondensedProblem& p
   Eigen::SparseMatrix<double> one_each(count, count);
   one_each.setIdentity();
   schur.require(rows);
-  const Eigen::MatrixXd compliance = schur.responses(rows, one_each);
+  const Eigen::MatrixXd compliance = schur.responses(rows, one_each).whole();
   const Eigen::MatrixXd between = compliance.topRightCorner(touching, springs);
   Eigen::MatrixXd held = compliance.bottomRightCorner(springs, springs);
   held -= between.transpose() * compliance.topLeftCorner(touching, touching).ldlt().solve(between);

@@ -37,7 +37,7 @@ VectorXd InterpolatedSolver::solve(const InterpolatedStep& step, const SchurComp
   if (!all_) {
     const Index rows = step.row_count();
     MatrixXd all(step.unknowns(), step.unknowns());
-    all.topRows(rows) = -schur.responses(step.rows(), step.forces());
+    all.topRows(rows) = -schur.responses(step.rows(), step.forces()).whole();
     all.topLeftCorner(rows, rows).diagonal().array() += 1.0;
     // Laws as lengths: where points are open, multipliers would else be scaled by the area of a face, and what they
     // share with others by its square.
@@ -49,7 +49,7 @@ VectorXd InterpolatedSolver::solve(const InterpolatedStep& step, const SchurComp
 
 /// x that leaves nothing of the laws.
 VectorXd InterpolatedSolver::WithoutAugmentation::solve(const VectorXd& of_jumps, const VectorXd& of_laws) const {
-  const Index rows = by_multipliers.rows(), count = by_multipliers.cols();
+  const Index rows = of_jumps.size(), count = of_laws.size();
   VectorXd x(rows + count);
   x.tail(count) = multipliers(of_jumps, of_laws);
   x.head(rows) = of_jumps + by_multipliers * x.tail(count);
@@ -90,8 +90,8 @@ std::optional<VectorXd> InterpolatedSolver::solve_by_products(const Interpolated
   take(step, schur);
   if (!without_augmentation_) {
     const SparseColumns forces = step.forces(), law = step.laws(), law_by_jumps = law.leftCols(rows);
-    MatrixXd by_multipliers = schur.responses(step.rows(), forces.rightCols(laws));
-    DenseLu factor(MatrixXd(law.rightCols(laws)) + law_by_jumps * by_multipliers);
+    Responses by_multipliers = schur.responses(step.rows(), forces.rightCols(laws));
+    DenseLu factor(MatrixXd(law.rightCols(laws)) + by_multipliers.weighed_by(law_by_jumps));
     without_augmentation_.emplace(
         WithoutAugmentation{forces.leftCols(rows), law_by_jumps, std::move(by_multipliers), std::move(factor)});
   }

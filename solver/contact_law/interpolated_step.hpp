@@ -90,7 +90,7 @@ class InterpolatedSolver {
   /// The equations without the forces that jumps bring by themselves.
   struct WithoutAugmentation {
     InterpolatedStep::SparseColumns by_jumps, law_by_jumps;
-    Eigen::MatrixXd by_multipliers;
+    Responses by_multipliers;
     DenseLu laws;
     Eigen::VectorXd multipliers(const Eigen::VectorXd& of_jumps, const Eigen::VectorXd& of_laws) const {
       return laws.solve(of_laws - law_by_jumps * of_jumps);

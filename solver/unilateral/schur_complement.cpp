@@ -5,7 +5,44 @@
 #include <unordered_map>
 #include <utility>
 
+#include "solver/parallel.hpp"
+
 namespace comma::solver {
+namespace {
+
+using SparseColumns = Eigen::SparseMatrix<double>;
+
+/// Columns of a dense product that one part makes.
+constexpr Eigen::Index part_columns = 64;
+
+/// part(first, width) for all columns.
+template <typename Part>
+void by_columns(Eigen::Index columns, const Part& part) {
+  run_parts(static_cast<int>((columns + part_columns - 1) / part_columns), [&](int number) {
+    const Eigen::Index first = number * part_columns;
+    part(first, std::min(part_columns, columns - first));
+  });
+}
+
+Eigen::MatrixXd product(const Eigen::MatrixXd& dense, const SparseColumns& sparse) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(dense.rows(), sparse.cols());
+  by_columns(sparse.cols(), [&](Eigen::Index first, Eigen::Index width) {
+    for (Eigen::Index column = first; column < first + width; ++column)
+      for (SparseColumns::InnerIterator it(sparse, column); it; ++it)
+        result.col(column) += it.value() * dense.col(it.row());
+  });
+  return result;
+}
+
+Eigen::MatrixXd product(const RowMatrix& sparse, const Eigen::MatrixXd& dense) {
+  Eigen::MatrixXd result(sparse.rows(), dense.cols());
+  by_columns(dense.cols(), [&](Eigen::Index first, Eigen::Index width) {
+    result.middleCols(first, width) = sparse * dense.middleCols(first, width);
+  });
+  return result;
+}
+
+}  // namespace
 
 SchurComplement::SchurComplement(RowMatrix rows, ApplyInverse inverse, std::vector<int> support, std::vector<int> keys)
     : rows_(std::move(rows)),
@@ -73,28 +110,46 @@ Eigen::VectorXd SchurComplement::column_of_factors(int row) const {
   return column;
 }
 
-Eigen::MatrixXd SchurComplement::responses(const std::vector<int>& rows,
-                                           const Eigen::SparseMatrix<double>& forces) const {
+Eigen::VectorXd Responses::operator*(const Eigen::VectorXd& x) const {
+  const Eigen::VectorXd moved = moved_ * x;
+  if (!has_factors()) return moved;
+  return rows_ * moved + own_ * x;
+}
+
+Eigen::MatrixXd Responses::weighed_by(const SparseColumns& weights) const {
+  if (!has_factors()) return product(weights, moved_);
+  Eigen::MatrixXd result = product(RowMatrix(RowMatrix(weights) * rows_), moved_);
+  result += weights * own_;
+  return result;
+}
+
+Eigen::MatrixXd Responses::whole() const {
+  if (!has_factors()) return moved_;
+  Eigen::MatrixXd result = product(rows_, moved_);
+  result += own_;
+  return result;
+}
+
+Responses SchurComplement::responses(const std::vector<int>& rows, const SparseColumns& forces) const {
   const auto count = static_cast<Eigen::Index>(rows.size());
   if (has_factors()) {
     std::vector<Eigen::Triplet<double>> entries;
-    for (Eigen::Index k = 0; k < count; ++k)
-      for (RowMatrix::InnerIterator it(on_support_, rows[static_cast<std::size_t>(k)]); it; ++it)
+    Eigen::VectorXd own = Eigen::VectorXd::Zero(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const int row = rows[static_cast<std::size_t>(k)];
+      if (softness_.size()) own[k] = softness_[row];
+      for (RowMatrix::InnerIterator it(on_support_, row); it; ++it)
         entries.emplace_back(static_cast<int>(k), static_cast<int>(it.col()), it.value());
+    }
     RowMatrix taken(count, on_support_.cols());
     taken.setFromTriplets(entries.begin(), entries.end());
-    const Eigen::SparseMatrix<double> on_support = Eigen::SparseMatrix<double>(taken.transpose()) * forces;
-    const Eigen::MatrixXd moved = factor_ * on_support;
-    Eigen::MatrixXd result = taken * moved;
-    for (Eigen::Index unknown = 0; unknown < forces.cols() && softness_.size(); ++unknown)
-      for (Eigen::SparseMatrix<double>::InnerIterator force(forces, unknown); force; ++force)
-        result(force.row(), unknown) += softness_[rows[static_cast<std::size_t>(force.row())]] * force.value();
-    return result;
+    const SparseColumns on_support = SparseColumns(taken.transpose()) * forces;
+    return {std::move(taken), product(factor_, on_support), own.asDiagonal() * forces};
   }
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count, forces.cols());
   const bool is_whole = count == size() && std::ranges::is_sorted(rows);
   for (Eigen::Index unknown = 0; unknown < forces.cols(); ++unknown)
-    for (Eigen::SparseMatrix<double>::InnerIterator force(forces, unknown); force; ++force) {
+    for (SparseColumns::InnerIterator force(forces, unknown); force; ++force) {
       const Column column = this->column(rows[static_cast<std::size_t>(force.row())]);
       if (is_whole)
         result.col(unknown) += force.value() * column;
@@ -102,7 +157,7 @@ Eigen::MatrixXd SchurComplement::responses(const std::vector<int>& rows,
         for (Eigen::Index k = 0; k < count; ++k)
           result(k, unknown) += force.value() * column[rows[static_cast<std::size_t>(k)]];
     }
-  return result;
+  return Responses(std::move(result));
 }
 
 bool SchurComplement::has_columns() const {

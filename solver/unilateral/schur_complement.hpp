@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Dense>
@@ -12,6 +13,27 @@
 #include "solver/linear/row_matrix.hpp"
 
 namespace comma::solver {
+
+/// S F (rows x forces' unknowns): where S is kept as its factors A C A^T, so is this.
+class Responses {
+ public:
+  explicit Responses(Eigen::MatrixXd whole) : moved_(std::move(whole)) {}
+  /// A (C A^T F) and what the rows give way by themselves.
+  Responses(RowMatrix rows, Eigen::MatrixXd moved, Eigen::SparseMatrix<double> own)
+      : rows_(std::move(rows)), moved_(std::move(moved)), own_(std::move(own)) {}
+
+  Eigen::VectorXd operator*(const Eigen::VectorXd& x) const;
+  /// L times this.
+  Eigen::MatrixXd weighed_by(const Eigen::SparseMatrix<double>& weights) const;
+  Eigen::MatrixXd whole() const;
+
+ private:
+  bool has_factors() const { return rows_.rows() > 0; }
+
+  RowMatrix rows_;  ///< A, or nothing: the identity
+  Eigen::MatrixXd moved_;
+  Eigen::SparseMatrix<double> own_;
+};
 
 /// A column costs one solve with K and is then kept: over all steps that share the stiffness and the rows, a row that
 /// is active again is free. Rows change (geometry updates turn normals and shift weights), and so may K:
@@ -56,7 +78,7 @@ class SchurComplement {
   /// The same to single precision, in half the time or less where all columns are known and many.
   Eigen::VectorXd times_roughly(const Eigen::VectorXd& x);
   /// S F between some rows (n), for forces F on these rows alone (n x k); their columns must have been required.
-  Eigen::MatrixXd responses(const std::vector<int>& rows, const Eigen::SparseMatrix<double>& forces) const;
+  Responses responses(const std::vector<int>& rows, const Eigen::SparseMatrix<double>& forces) const;
   /// The entries on some rows of S x for an x on these rows alone (one a row).
   Eigen::VectorXd times_roughly(const std::vector<int>& rows, const Eigen::VectorXd& x);
   bool known(int index) const {
@@ -87,10 +109,10 @@ class SchurComplement {
   static constexpr std::size_t many_columns = 100;
   static constexpr double many_share = 0.25;
   /// So many rows, and so many times as many as unknowns, are never multiplied out; nor are there more unknowns than so
-  /// many (50 MB).
+  /// many (290 MB).
   static constexpr int factored_rows = 600;
   static constexpr double factored_share = 1.2;
-  static constexpr std::size_t largest_factor = 2500;
+  static constexpr std::size_t largest_factor = 6000;
 
  private:
   bool keeps_compliance() const { return support_.size() <= largest_support; }

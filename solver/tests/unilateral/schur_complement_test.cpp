@@ -226,9 +226,14 @@ TEST_CASE("Of many rows on few unknowns S is its factors: one solve an unknown, 
     CHECK((schur.times(x) - expected * x).norm() < 1e-10 * expected.norm() * x.norm());
     CHECK((schur.column(8) - expected.col(8)).norm() < 1e-10 * expected.norm());
     const std::vector<int> some = {9, 2, 400};
-    const Eigen::MatrixXd forces = Eigen::MatrixXd::NullaryExpr(3, 2, draw);
-    CHECK((schur.responses(some, forces.sparseView()) - expected(some, some) * forces).norm() <
-          1e-10 * expected.norm() * forces.norm());
+    const Eigen::MatrixXd forces = Eigen::MatrixXd::NullaryExpr(3, 2, draw),
+                          weights = Eigen::MatrixXd::NullaryExpr(2, 3, draw);
+    const Responses responses = schur.responses(some, forces.sparseView());
+    const Eigen::MatrixXd moved = expected(some, some) * forces;
+    const double rounding = 1e-10 * expected.norm() * forces.norm();
+    CHECK((responses.whole() - moved).norm() < rounding);
+    CHECK((responses.weighed_by(weights.sparseView()) - weights * moved).norm() < rounding * weights.norm());
+    CHECK((responses * Eigen::Vector2d(1.0, -2.0) - moved * Eigen::Vector2d(1.0, -2.0)).norm() < 3.0 * rounding);
     CHECK(schur.is_exact());
   };
   check(softness);
