@@ -7,6 +7,15 @@ namespace comma::solver {
 using Eigen::Index;
 using Eigen::Vector3d;
 
+const Eigen::VectorXd& first_jumps(const CondensedProblem& problem) {
+  return problem.begin.size() > 0 ? problem.begin : problem.free;
+}
+
+bool has_penalty(const CondensedProblem& problem) {
+  return std::ranges::any_of(
+      problem.points, [](const CondensedPoint& point) { return point.law.penalised || point.law.friction_penalised; });
+}
+
 Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& state, const CondensedPoint& point) {
   Vector3d value = Vector3d::Zero();
   for (int i = 0; i < point.node_count; ++i)

@@ -93,6 +93,11 @@ struct CondensedState {
   std::vector<ContactStatus> statuses;  ///< one a point: the start, then the solution
 };
 
+/// Jumps that Newton's method begins with.
+const Eigen::VectorXd& first_jumps(const CondensedProblem& problem);
+
+bool has_penalty(const CondensedProblem& problem);
+
 /// At a point, from the multipliers of its nodes; zero beyond the components of the problem.
 Eigen::Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& state,
                               const CondensedPoint& point);
