@@ -13,8 +13,6 @@ namespace comma::solver {
 namespace {
 
 using Eigen::Index;
-using Eigen::Matrix2d;
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Entries = std::vector<Eigen::Triplet<double>>;
 using SparseColumns = Eigen::SparseMatrix<double>;
@@ -42,27 +40,6 @@ constexpr double rounding_scale = 1e-6;
 /// A share of a correction has to bring what is left down by this much of itself; the least one.
 constexpr double least_decrease = 1e-4;
 constexpr double least_share = 1.0 / 256.0;
-
-/// What is not negative, rounded off by e (Chen, Harker, Kanzow, Smale): max(0, x) where e vanishes. `beyond`: by how
-/// much it exceeds x, `flatness`: one less the slope, neither of which rounding takes away however small it is;
-/// `curvature`: the derivative of the slope.
-struct PositivePart {
-  double value = 0.0, slope = 1.0, beyond = 0.0, flatness = 0.0, curvature = 0.0;
-  static PositivePart of(double x, double e) {
-    const double root = std::sqrt(x * x + 4.0 * e * e);
-    const double large = 0.5 * (std::abs(x) + root), small = e * e / large;
-    PositivePart part;
-    part.value = x >= 0.0 ? large : small;
-    part.beyond = x >= 0.0 ? small : large;
-    part.slope = part.value / root;
-    part.flatness = part.beyond / root;
-    part.curvature = 2.0 * part.slope * part.flatness / root;
-    return part;
-  }
-};
-
-/// a^(1 - share) b^share.
-double blend(double a, double b, double share) { return share > 0.0 ? a * std::pow(b / a, share) : a; }
 
 class Smoothing {
  public:
@@ -198,166 +175,22 @@ class Smoothing {
     return value;
   }
 
-  /// A penalty is a law with a multiplier all the same, by which a gap is closed but for what the penalty gives way:
-  /// however stiff, it does no harm.
-  static double share_of_multiplier(bool penalised, double stiffness, double penalty) {
-    return penalised ? 1.0 - stiffness / penalty : 1.0;
-  }
-
-  double normal_stiffness(std::size_t p) const {
-    const ContactLaw& law = problem_.points[p].law;
-    return law.penalised ? bodies_[p].normal : blend(bodies_[p].normal, law.augmentation, law_share_);
-  }
-
-  double stiffness_along(std::size_t p) const {
-    const ContactLaw& law = problem_.points[p].law;
-    return law.friction_penalised ? bodies_[p].along
-                                  : blend(bodies_[p].along, law.friction_augmentation, law_share_along_);
-  }
-
   double rounding() const { return largest_ * std::pow(10.0, -decade_); }
 
-  double trial_pressure(std::size_t p, const Vector3d& multiplier, const Vector3d& jump) const {
-    const double stiffness = normal_stiffness(p);
-    return share_of_multiplier(problem_.points[p].law.penalised, stiffness, problem_.points[p].law.augmentation) *
-               multiplier[0] -
-           stiffness * jump[0];
-  }
-
-  Vector2d trial_shear(std::size_t p, const Vector3d& multiplier, const Vector3d& jump) const {
-    const double stiffness = stiffness_along(p);
-    return share_of_multiplier(problem_.points[p].law.friction_penalised, stiffness,
-                               problem_.points[p].law.friction_augmentation) *
-               multiplier.tail<2>() +
-           stiffness * jump.tail<2>();
+  SmoothedLaw law(std::size_t p) const {
+    const CondensedPoint& point = problem_.points[p];
+    return {point.law,
+            bodies_[p],
+            {.pressure = rounding(),
+             .law_share = law_share_,
+             .law_share_along = law_share_along_,
+             .stays_closed = stays_closed(p),
+             .rubs = point.rows > 1,
+             .on_node = on_nodes_}};
   }
 
   bool stays_closed(std::size_t p) const {
     return problem_.points[p].bilateral && state_.statuses[p] != ContactStatus::open;
-  }
-
-  /// The law at a point, and by how much what is left of it counts as a length: gaps and slips by themselves, tractions
-  /// by what the bodies give way under them.
-  struct SmoothLaw : ContactLawValue {
-    double counts = 1.0, counts_along = 1.0;
-  };
-
-  static double count_of(double closed, double stiffness, double of_bodies) {
-    return closed + (1.0 - closed) * std::min(1.0, stiffness / of_bodies);
-  }
-
-  /// contact_law() without statuses.
-  SmoothLaw law(std::size_t p, const Vector3d& multiplier, const Vector3d& jump) const {
-    ContactLaw law = problem_.points[p].law;
-    SmoothLaw value = live_law(p, live_part(law, multiplier), live_part(law, jump));
-    law.friction_augmentation = bodies_[p].along;
-    leave_out_dead(law, multiplier, value);
-    return value;
-  }
-
-  SmoothLaw live_law(std::size_t p, const Vector3d& multiplier, const Vector3d& jump) const {
-    const CondensedPoint& point = problem_.points[p];
-    const double stiffness = normal_stiffness(p),
-                 by_multiplier = share_of_multiplier(point.law.penalised, stiffness, point.law.augmentation);
-    const double trial = trial_pressure(p, multiplier, jump);
-    // That a pressure times a gap is the square of the rounding over the stiffness does not depend on the augmentation.
-    const PositivePart pressure = stays_closed(p)
-                                      ? PositivePart{.value = trial}
-                                      : PositivePart::of(trial, rounding() * std::sqrt(stiffness / bodies_[p].normal));
-    const double softness = point.law.penalised ? 1.0 / point.law.augmentation : 0.0;
-    SmoothLaw result;
-    result.traction[0] = pressure.value;
-    result.traction_by_multiplier(0, 0) = by_multiplier * pressure.slope;
-    result.traction_by_jump(0, 0) = -stiffness * pressure.slope;
-    result.residual[0] = trial >= 0.0 ? pressure.beyond / stiffness - jump[0] - softness * multiplier[0]
-                                      : (pressure.value - multiplier[0]) / stiffness;
-    result.residual_by_multiplier(0, 0) = -pressure.flatness / stiffness - softness * pressure.slope;
-    result.residual_by_jump(0, 0) = -pressure.slope;
-    result.counts = count_of(pressure.slope, stiffness, bodies_[p].normal);
-    if (point.rows > 1) add_shear(p, pressure, multiplier, jump, result);
-    return result;
-  }
-
-  struct Shear {
-    Vector2d value = Vector2d::Zero(), by_limit = Vector2d::Zero();
-    Matrix2d by_trial = Matrix2d::Zero(), by_trial_missing = Matrix2d::Identity();  ///< and what is missing from one
-    double missing = 1.0;  ///< share of the trial that is cut off
-    double sticks = 0.0;
-  };
-
-  /// limit / max(|trial|, limit) of the trial, rounded off by e.
-  static Shear shear_of(const Vector2d& trial, double limit, double e) {
-    Shear shear;
-    if (!(limit > 0.0)) return shear;
-    const double size = trial.norm();
-    const PositivePart beyond = PositivePart::of(size - limit, e);
-    const double most = limit + beyond.value, share = limit / most;
-    Matrix2d along = Matrix2d::Zero();
-    if (size > 0.0) along = share / most * beyond.slope / size * trial * trial.transpose();
-    shear.value = share * trial;
-    shear.missing = beyond.value / most;
-    shear.sticks = beyond.flatness;
-    shear.by_trial = share * Matrix2d::Identity() - along;
-    shear.by_trial_missing = shear.missing * Matrix2d::Identity() + along;
-    shear.by_limit = (1.0 / most - limit / (most * most) * beyond.flatness) * trial;
-    return shear;
-  }
-
-  void add_shear(std::size_t p, const PositivePart& pressure, const Vector3d& multiplier, const Vector3d& jump,
-                 SmoothLaw& result) const {
-    const ContactLaw& law = problem_.points[p].law;
-    const double stiffness = stiffness_along(p),
-                 softness = law.friction_penalised ? 1.0 / law.friction_augmentation : 0.0;
-    const PositivePart limiting = PositivePart::of(multiplier[0], rounding());
-    const bool by_shares = law.share_pressure > 0.0;
-    const double limit = law.friction * (by_shares ? law.share_pressure : limiting.value);
-    const Shear shear = shear_of(trial_shear(p, multiplier, jump), limit,
-                                 law.friction * rounding() * std::sqrt(stiffness / bodies_[p].along));
-    // By shares the shear is that of a pressure that is given, times the present one over it.
-    const double present = by_shares ? limiting.value / law.share_pressure : 1.0;
-    const Vector2d by_pressure = by_shares ? Vector2d(limiting.slope / law.share_pressure * shear.value)
-                                           : Vector2d(law.friction * limiting.slope * shear.by_limit);
-    result.traction.tail<2>() = -present * shear.value;
-    result.traction_by_multiplier.bottomRightCorner<2, 2>() =
-        -present * share_of_multiplier(law.friction_penalised, stiffness, law.friction_augmentation) * shear.by_trial;
-    result.traction_by_multiplier.bottomLeftCorner<2, 1>() = -by_pressure;
-    result.traction_by_jump.bottomRightCorner<2, 2>() = -present * stiffness * shear.by_trial;
-    result.counts_along = count_of(shear.sticks, stiffness, bodies_[p].along);
-
-    const double weight = law.friction_penalised ? 1.0 : present;
-    const Vector2d left = (1.0 - shear.missing) * (jump.tail<2>() - softness * multiplier.tail<2>()) -
-                          shear.missing / stiffness * multiplier.tail<2>();
-    result.residual.tail<2>() = weight * left;
-    result.residual_by_multiplier.bottomRightCorner<2, 2>() =
-        -weight * (shear.by_trial_missing / stiffness + softness * shear.by_trial);
-    result.residual_by_jump.bottomRightCorner<2, 2>() = weight * shear.by_trial;
-    if (!by_shares)
-      result.residual_by_multiplier.bottomLeftCorner<2, 1>() = by_pressure / stiffness;
-    else if (!law.friction_penalised)
-      result.residual_by_multiplier.bottomLeftCorner<2, 1>() = limiting.slope / law.share_pressure * left;
-    if (!on_nodes_) let_open_shears_vanish(p, pressure, multiplier, result);
-  }
-
-  /// Between nodes a point may be open where the pressure of its nodes is not zero: it bears no shear all the same.
-  void let_open_shears_vanish(std::size_t p, const PositivePart& pressure, const Vector3d& multiplier,
-                              SmoothLaw& result) const {
-    const ContactLaw& law = problem_.points[p].law;
-    const double stiffness = normal_stiffness(p),
-                 by_multiplier = share_of_multiplier(law.penalised, stiffness, law.augmentation);
-    const Vector2d vanishing = -multiplier.tail<2>() / stiffness_along(p);
-    const Vector2d residual_by_trial = pressure.curvature * (result.residual.tail<2>() - vanishing),
-                   traction_by_trial = pressure.curvature * result.traction.tail<2>();
-    result.traction.tail<2>() *= pressure.slope;
-    result.residual.tail<2>() = pressure.slope * result.residual.tail<2>() + pressure.flatness * vanishing;
-    for (Eigen::Matrix3d* derivative : {&result.traction_by_multiplier, &result.traction_by_jump,
-                                        &result.residual_by_multiplier, &result.residual_by_jump})
-      derivative->bottomRows<2>() *= pressure.slope;
-    result.residual_by_multiplier.bottomRightCorner<2, 2>() -=
-        pressure.flatness / stiffness_along(p) * Matrix2d::Identity();
-    result.traction_by_multiplier.bottomLeftCorner<2, 1>() += by_multiplier * traction_by_trial;
-    result.traction_by_jump.bottomLeftCorner<2, 1>() -= stiffness * traction_by_trial;
-    result.residual_by_multiplier.bottomLeftCorner<2, 1>() += by_multiplier * residual_by_trial;
-    result.residual_by_jump.bottomLeftCorner<2, 1>() -= stiffness * residual_by_trial;
   }
 
   /// The equations at the present unknowns: forces on rows with their derivative by the unknowns, jumps, and what is
@@ -405,7 +238,7 @@ class Smoothing {
 
   void add_point(std::size_t p, Equations& now) const {
     const CondensedPoint& point = problem_.points[p];
-    const SmoothLaw value = law(p, multiplier(point), jump(point, now.jumps));
+    const SmoothedLawValue value = law(p).at(multiplier(point), jump(point, now.jumps));
     for (int a = 0; a < point.rows && !on_nodes_; ++a) {
       const int row = row_of(point, a);
       now.forces[row] += point.weight * value.traction[a];
@@ -505,17 +338,7 @@ class Smoothing {
           multiplier_unknowns_[i] >= 0 ? unknowns_[multiplier_unknowns_[i]] : 0.0;
     for (std::size_t p = 0; p < bodies_.size(); ++p)
       if (problem_.points[p].rows > 0)
-        state_.statuses[p] = status(p, multiplier(problem_.points[p]), jump(problem_.points[p], jumps));
-  }
-
-  ContactStatus status(std::size_t p, const Vector3d& multiplier, const Vector3d& jump) const {
-    if (!stays_closed(p) && trial_pressure(p, multiplier, jump) <= 0.0) return ContactStatus::open;
-    const ContactLaw& law = problem_.points[p].law;
-    const double pressure = law.share_pressure > 0.0 ? law.share_pressure : multiplier[0];
-    const bool sticks =
-        problem_.points[p].rows > 1 && law.friction > 0.0 &&
-        trial_shear(p, live_part(law, multiplier), live_part(law, jump)).norm() <= law.friction * pressure;
-    return sticks ? ContactStatus::sticking : ContactStatus::sliding;
+        state_.statuses[p] = law(p).status(multiplier(problem_.points[p]), jump(problem_.points[p], jumps));
   }
 
   SchurComplement& schur_;

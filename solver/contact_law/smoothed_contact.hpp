@@ -6,14 +6,9 @@
 #include <Eigen/Dense>
 
 #include "solver/contact_law/condensed_problem.hpp"
+#include "solver/contact_law/smoothed_law.hpp"
 
 namespace comma::solver {
-
-/// What a point resists by along its normal and along the surface, through the bodies and its penalty: a pressure over
-/// a length, or 0.
-struct PointStiffness {
-  double normal = 0.0, along = 0.0;
-};
 
 /// Which augmentations between nodes are those of the law at last; shears otherwise keep those of the bodies.
 enum class Augmentations : std::uint8_t { of_law, of_pressures };

@@ -6,6 +6,7 @@
 
 #include "solver/error.hpp"
 #include "solver/fields/energies.hpp"
+#include "solver/fields/extrapolation.hpp"
 #include "solver/fields/field_algebra.hpp"
 #include "solver/fields/field_computation.hpp"
 #include "solver/fields/loading_indicators.hpp"

@@ -4,53 +4,11 @@
 
 #include <catch2/catch.hpp>
 
+#include "solver/tests/contact_law/law_tangents.hpp"
 #include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;
 using Eigen::Vector3d;
-
-namespace {
-
-struct Differences {
-  Eigen::Matrix3d traction;
-  Eigen::Matrix3d residual;
-};
-
-/// Central differences of traction and residual by the multiplier or by the jump.
-Differences differences(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier, const Vector3d& jump,
-                        bool by_jump) {
-  Differences result;
-  for (int k = 0; k < 3; ++k) {
-    const double step = 1e-6 * (by_jump ? jump.norm() : multiplier.norm());
-    const Vector3d shift = step * Vector3d::Unit(k);
-    const auto at = [&](double side) {
-      return by_jump ? contact_law(law, status, multiplier, jump + side * shift)
-                     : contact_law(law, status, multiplier + side * shift, jump);
-    };
-    const ContactLawValue after = at(1.0);
-    const ContactLawValue before = at(-1.0);
-    result.traction.col(k) = (after.traction - before.traction) / (2.0 * step);
-    result.residual.col(k) = (after.residual - before.residual) / (2.0 * step);
-  }
-  return result;
-}
-
-void check_tangents(const ContactLaw& law, ContactStatus status) {
-  const Vector3d multiplier(120.0, 25.0, -14.0);
-  const Vector3d jump(-0.03, 0.02, 0.05);
-  const ContactLawValue value = contact_law(law, status, multiplier, jump);
-  const Differences by_multiplier = differences(law, status, multiplier, jump, false);
-  const Differences by_jump = differences(law, status, multiplier, jump, true);
-  // Central differences of steps of 1e-6 lose their fourth digits before the sixth.
-  CHECK((by_multiplier.traction - value.traction_by_multiplier).norm() <
-        1e-6 * (1.0 + value.traction_by_multiplier.norm()));
-  CHECK((by_multiplier.residual - value.residual_by_multiplier).norm() <
-        1e-6 * (1.0 + value.residual_by_multiplier.norm()));
-  CHECK((by_jump.traction - value.traction_by_jump).norm() < 1e-6 * (1.0 + value.traction_by_jump.norm()));
-  CHECK((by_jump.residual - value.residual_by_jump).norm() < 1e-6 * (1.0 + value.residual_by_jump.norm()));
-}
-
-}  // namespace
 
 TEST_CASE("Tangents of the contact law are its derivatives") {
   for (const bool penalised : {false, true})
@@ -67,9 +25,12 @@ TEST_CASE("Tangents of the contact law are its derivatives") {
             law.friction = 0.3;
             law.friction_augmentation = 700.0;
             law.friction_penalised = friction_penalised;
-            check_tangents(law, status);
+            const auto value = [&](const Vector3d& multiplier, const Vector3d& jump) {
+              return contact_law(law, status, multiplier, jump);
+            };
+            check_tangents(value);
             law.dead = Eigen::Vector2d(0.6, 0.8);
-            check_tangents(law, status);
+            check_tangents(value);
           }
 }
 
