@@ -162,6 +162,19 @@ void warn_of_missing_data(const interpreter::Call& call, const solver::StaticPro
   warn_of_missing_expansion(call, problem, context);
 }
 
+/// The first that is not zero.
+double strain_of_bars(const solver::StaticProblem& problem, const solver::FieldInput& input) {
+  for (int cell = 0; cell < problem.model->mesh->cell_count(); ++cell) {
+    if (!solver::is_bar(problem.model->formulations[static_cast<std::size_t>(cell)])) continue;
+    const solver::Elasticity* elasticity = elasticity_of(problem, cell);
+    const auto* isotropic = elasticity != nullptr ? std::get_if<solver::IsotropicElasticity>(elasticity) : nullptr;
+    if (isotropic == nullptr) continue;
+    const double strain = solver::inelastic_axial_strain(*isotropic, solver::middle_point(input, cell));
+    if (strain != 0.0) return strain;
+  }
+  return 0.0;
+}
+
 void warn_of_strained_start(const interpreter::Call& call, const solver::StaticProblem& problem, double instant,
                             Context& context) {
   if (problem.initial || !problem.materials || problem.materials->variables.empty()) return;
@@ -175,9 +188,9 @@ void warn_of_strained_start(const interpreter::Call& call, const solver::StaticP
         return field.values[k];
     return 0.0;
   };
-  const double by_variables = first_strain(solver::variable_strain_field(input), "EP");
-  const double strain =
-      by_variables != 0.0 ? by_variables : first_strain(solver::command_variable_field(input), "EPSA");
+  double strain = first_strain(solver::variable_strain_field(input), "EP");
+  if (strain == 0.0) strain = first_strain(solver::command_variable_field(input), "EPSA");
+  if (strain == 0.0) strain = strain_of_bars(problem, input);
   if (strain == 0.0) return;
   context.diagnostics.alarm(
       "strained-start",
