@@ -140,15 +140,13 @@ class ZonePoints {
     }
     const auto hit = search_.nearest(here, own_nodes(point), before);
     if (!hit) return;
-    const bool needs_own = zone_.normal_side != NormalSide::master;
-    const auto normal = search_.normal(*hit, needs_own ? search_.slave_normal(point.cell, at.xi) : Vector3d::Zero());
-    if (!normal) return;
     point.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
     point.facet = hit->facet;
     point.master_shape = hit->projection.weights;
     point.foot = hit->projection.foot;
     point.kept = hit->kept;
-    point.normal = *normal;
+    const bool needs_own = zone_.normal_side != NormalSide::master;
+    point.normal = search_.normal(*hit, needs_own ? search_.slave_normal(point.cell, at.xi) : Vector3d::Zero());
     point.thickness = thickness_at(zone_, here, point.foot, time_) +
                       half_thickness(zone_, mesh_, point.facet, point.master_shape) +
                       half_thickness(zone_, mesh_, point.cell, point.shape);

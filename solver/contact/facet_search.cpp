@@ -177,13 +177,11 @@ bool FacetSearch::is_outside(const Projection& projection, double margin) const 
   return projection.outside > std::max(0.0, zone_.projection_tolerance) + margin + accuracy;
 }
 
-std::optional<Vector3d> FacetSearch::normal(const Hit& hit, const Vector3d& slave_outward) const {
-  if (zone_.normal_side == NormalSide::slave && !has_normal(master_choice(zone_), mesh_, hit.facet))
-    return contact_normal(zone_.normal_side, Vector3d::Zero(), slave_outward);
+Vector3d FacetSearch::normal(const Hit& hit, const Vector3d& slave_outward) const {
+  if (zone_.normal_side == NormalSide::slave) return contact_normal(NormalSide::slave, Vector3d::Zero(), slave_outward);
   const Vector3d master = master_normals_.empty()
                               ? surface_normal(master_choice(zone_), mesh_, hit.facet, hit.projection.xi, positions_)
                               : interpolated_normal(mesh_, hit.facet, hit.projection.xi, master_normals_);
-  if (zone_.normal_side != NormalSide::master && master.dot(slave_outward) > -least_opposition) return std::nullopt;
   return contact_normal(zone_.normal_side, master, slave_outward);
 }
 

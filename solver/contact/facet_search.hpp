@@ -50,9 +50,8 @@ class FacetSearch {
   std::optional<Hit> nearest_node(const Eigen::Vector3d& point, std::span<const int> own) const;
 
   /// Unit normal from master to slave at a hit. `slave_outward`: the slave's own unit normal, read where the zone asks
-  /// for it. Along that a point would seem to overlap a master that it does not look at, such as one behind its own
-  /// body: nothing where the two normals do not oppose each other.
-  std::optional<Eigen::Vector3d> normal(const Hit& hit, const Eigen::Vector3d& slave_outward) const;
+  /// for it.
+  Eigen::Vector3d normal(const Hit& hit, const Eigen::Vector3d& slave_outward) const;
 
   /// Outward unit normal of a slave face at a reference point, smoothed as the zone asks.
   Eigen::Vector3d slave_normal(int cell, const Eigen::Vector2d& xi) const;

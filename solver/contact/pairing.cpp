@@ -37,15 +37,13 @@ class ZonePairing {
     } else if (search_.too_far(at)) {
       result.status = PairingStatus::too_far;
     } else if (const auto hit = place_on_master(slave, before)) {
-      const auto own = slave_normals_.find(slave);
-      const auto normal = search_.normal(*hit, own == slave_normals_.end() ? Vector3d::Zero() : own->second);
-      if (!normal) return result;
-      result.normal = *normal;
       result.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
       result.facet = hit->facet;
       result.weights = hit->projection.weights;
       result.foot = hit->projection.foot;
       result.kept = hit->kept;
+      const auto own = slave_normals_.find(slave);
+      result.normal = search_.normal(*hit, own == slave_normals_.end() ? Vector3d::Zero() : own->second);
       result.thickness =
           thickness_at(zone_, at, result.foot, time_) + half_thickness(zone_, mesh_, hit->facet, result.weights);
       if (const auto size = slave_sizes_.find(slave); size != slave_sizes_.end()) result.thickness += size->second;

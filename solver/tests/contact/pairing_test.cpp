@@ -127,21 +127,6 @@ TEST_CASE("With a pairing direction a slave node takes the facet that lies in it
   CHECK((pairs[1].foot - Vector3d(4, 0, 0)).norm() == 0.0);
 }
 
-TEST_CASE("Along its own normal a slave node faces only what it looks at") {
-  const auto status = [](const Vector3d& first, const Vector3d& second, NormalSide side) {
-    Table table({first, second});
-    table.zone().normal_side = side;
-    return table.pair()[0].status;
-  };
-  for (const NormalSide side : {NormalSide::slave, NormalSide::average}) {
-    CHECK(status({1, 1, 0}, {2, 1, 0}, side) == PairingStatus::paired);    // downwards
-    CHECK(status({1, 2, 0}, {1, 1, 0}, side) == PairingStatus::outside);   // sideways
-    CHECK(status({2, 1, 0}, {1, 1, 0}, side) == PairingStatus::outside);   // upwards: the master is behind it
-    CHECK(status({1, -1, 0}, {2, -1, 0}, side) == PairingStatus::paired);  // overlapping
-  }
-  CHECK(status({2, 1, 0}, {1, 1, 0}, NormalSide::master) == PairingStatus::paired);
-}
-
 TEST_CASE("What elements add to both sides is taken off the gap") {
   Table table({{1, 1, 0}, {3, 1, 0}});
   table.zone().half_thickness[0] = {0.1, 0.3};  // the facet from x = 2 to x = 0
