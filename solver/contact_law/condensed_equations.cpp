@@ -362,7 +362,7 @@ double CondensedEquations::largest_response() const {
   double largest_root = 0.0;
   for (Index row = 0; row < forces_.size(); ++row) {
     if (!schur_.known(static_cast<int>(row))) continue;
-    const double root = std::sqrt(std::abs(schur_.column(static_cast<int>(row))[row]));
+    const double root = std::sqrt(std::abs(schur_.own(static_cast<int>(row))));
     sum += root * std::max(std::abs(forces_[row]), std::abs(problem_.held[row]));
     largest_root = std::max(largest_root, root);
   }

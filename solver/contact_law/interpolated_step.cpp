@@ -1,5 +1,7 @@
 #include "solver/contact_law/interpolated_step.hpp"
 
+#include "solver/contact_law/support_step.hpp"
+
 namespace comma::solver {
 namespace {
 
@@ -29,11 +31,16 @@ void InterpolatedSolver::take(const InterpolatedStep& step, const SchurComplemen
   step_ = step;
   version_ = schur.version();
   all_.reset();
+  on_support_.reset();
   without_augmentation_.reset();
 }
 
 VectorXd InterpolatedSolver::solve(const InterpolatedStep& step, const SchurComplement& schur, const VectorXd& b) {
   take(step, schur);
+  if (const auto factors = schur.factors(step.rows()); factors && factors->rows.cols() < step.row_count()) {
+    if (!on_support_) on_support_ = std::make_shared<const SupportStep>(step, *factors);
+    return on_support_->solve(b, factors->compliance);
+  }
   if (!all_) {
     const Index rows = step.row_count();
     MatrixXd all(step.unknowns(), step.unknowns());

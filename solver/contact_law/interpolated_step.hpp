@@ -1,6 +1,7 @@
 // A step of Newton's method for contact whose multipliers are interpolated to points between nodes.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -74,6 +75,8 @@ class InterpolatedStep {
   Eigen::VectorXd weights_;
 };
 
+class SupportStep;
+
 /// Solves steps and keeps the factors of the last one: rounds with a compliance that is not exact ask for the same step
 /// with other right-hand sides, and the next iteration of Newton's method for one that is little different.
 class InterpolatedSolver {
@@ -107,6 +110,7 @@ class InterpolatedSolver {
   InterpolatedStep step_;
   long version_ = -1;  ///< of S
   std::optional<DenseSystem> all_;
+  std::shared_ptr<const SupportStep> on_support_;
   std::optional<WithoutAugmentation> without_augmentation_;
 };
 

@@ -17,8 +17,9 @@ using Eigen::Vector3d;
 using Entries = std::vector<Eigen::Triplet<double>>;
 using SparseColumns = Eigen::SparseMatrix<double>;
 
-/// A dense system of so many unknowns takes half a second.
-constexpr Index most_unknowns = 2000;
+/// A dense system of so many unknowns takes half a second; one of points between nodes, where more of them are needed,
+/// a tenth.
+constexpr Index most_unknowns = 2000, most_unknowns_between = 1000;
 /// Of Newton's method: for one rounding, for all, and so few that the next step may be larger.
 constexpr int most_iterations_once = 20;
 constexpr int most_iterations = 300;
@@ -55,8 +56,9 @@ class Smoothing {
 
   bool run() {
     number_unknowns();
-    if (size() == 0 || size() > most_unknowns) return false;
+    if (size() == 0) return false;
     take_compliance();
+    if (is_too_large()) return false;
     take_stiffness();
     largest_ = largest_pressure();
     scale_ = std::max(largest_component(free_), rounding_scale * problem_.displacement);
@@ -117,9 +119,21 @@ class Smoothing {
     for (Index row = 0; row < problem_.held.size(); ++row)
       if (problem_.held[row] != 0.0) needed.push_back(static_cast<int>(row));
     schur_.require(needed);
-    compliance_.resize(rows(), rows());
-    for (Index k = 0; k < rows(); ++k) compliance_.col(k) = chosen(schur_.column(rows_[static_cast<std::size_t>(k)]));
     free_ = chosen(problem_.free - schur_.times(problem_.held));
+  }
+
+  bool is_too_large() const {
+    if (on_nodes_) return size() > most_unknowns;
+    if (const auto factors = schur_.factors(rows_))
+      return std::min(rows(), factors->rows.cols()) + multipliers_ > most_unknowns_between;
+    return size() > most_unknowns;
+  }
+
+  /// S f on the rows.
+  Eigen::VectorXd moved_by(const Eigen::VectorXd& forces) const {
+    Eigen::VectorXd all = Eigen::VectorXd::Zero(schur_.size());
+    all(rows_) = forces;
+    return chosen(schur_.times(all));
   }
 
   template <typename Vector>
@@ -135,7 +149,7 @@ class Smoothing {
       const CondensedPoint& point = problem_.points[p];
       double normal = point.law.penalised ? 1.0 / (point.weight * point.law.augmentation) : 0.0;
       double along = point.law.friction_penalised ? 1.0 / (point.weight * point.law.friction_augmentation) : 0.0;
-      for (int c = 0; c < point.rows; ++c) (c == 0 ? normal : along) += compliance_(row_of(point, c), row_of(point, c));
+      for (int c = 0; c < point.rows; ++c) (c == 0 ? normal : along) += schur_.own(point.first_row + c);
       bodies_[p].normal = normal > 0.0 ? 1.0 / (point.weight * normal) : point.law.augmentation;
       bodies_[p].along = along > 0.0 ? 1.0 / (point.weight * along) : point.law.friction_augmentation;
     }
@@ -216,9 +230,9 @@ class Smoothing {
       now.jumps = unknowns_.head(rows());
     for (std::size_t p = 0; p < bodies_.size(); ++p)
       if (problem_.points[p].rows > 0) add_point(p, now);
-    const Eigen::VectorXd by_forces = compliance_.topRows(unknown_rows_) * now.forces;
     now.counts.head(unknown_rows_).setOnes();
-    now.left.head(unknown_rows_) = unknowns_.head(unknown_rows_) - free_.head(unknown_rows_) - by_forces;
+    now.left.head(unknown_rows_) = unknowns_.head(unknown_rows_) - free_.head(unknown_rows_);
+    if (unknown_rows_ > 0) now.left.head(unknown_rows_) -= moved_by(now.forces).head(unknown_rows_);
     return now;
   }
 
@@ -232,7 +246,7 @@ class Smoothing {
         now.forces[row_of(point, c)] += weight * unknowns_[unknown];
         now.forces_by.emplace_back(row_of(point, c), unknown, weight);
       }
-    now.jumps = free_ + compliance_ * now.forces;
+    now.jumps = free_ + moved_by(now.forces);
     now.jumps.head(unknown_rows_) = unknowns_.head(unknown_rows_);
   }
 
@@ -273,18 +287,26 @@ class Smoothing {
     return result;
   }
 
+  Eigen::VectorXd correction(const Equations& now) {
+    if (on_nodes_) return solve_dense(derivative(now), now.left);
+    InterpolatedStep step(rows_, static_cast<int>(size()));
+    for (const auto& each : now.forces_by) step.add_force_derivative(each.row(), each.col(), each.value());
+    for (const Entries* laws : {&now.laws_by_unknown, &now.laws_by_jump})
+      for (const auto& each : *laws) step.add_law_derivative(each.row(), each.col(), each.value());
+    for (Index law = unknown_rows_; law < size(); ++law) step.add_law_weight(static_cast<int>(law), 1.0);
+    return solver_.solve(step, schur_, now.left);
+  }
+
+  /// Of springs and multipliers on nodes, from which jumps follow.
   Eigen::MatrixXd derivative(const Equations& now) const {
     const SparseColumns forces_by = sparse(rows(), size(), now.forces_by),
                         laws_by_jump = sparse(size(), rows(), now.laws_by_jump);
-    const Eigen::MatrixXd jumps_by = compliance_ * forces_by;
+    const Eigen::MatrixXd jumps_by = schur_.responses(rows_, forces_by).whole();
     Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size(), size());
     result.topRows(unknown_rows_) = -jumps_by.topRows(unknown_rows_);
     for (Index k = 0; k < unknown_rows_; ++k) result(k, k) += 1.0;
     result += sparse(size(), size(), now.laws_by_unknown);
-    if (on_nodes_)
-      result += laws_by_jump * jumps_by;
-    else
-      result.leftCols(rows()) += laws_by_jump;
+    result += laws_by_jump * jumps_by;
     return result;
   }
 
@@ -297,7 +319,7 @@ class Smoothing {
       const Eigen::VectorXd counts = now.counts, counted = counts.cwiseProduct(now.left);
       if (!counted.allFinite()) return false;
       if (largest_component(counted) <= enough) return true;
-      const Eigen::VectorXd step = solve_dense(derivative(now), now.left), before = unknowns_;
+      const Eigen::VectorXd step = correction(now), before = unknowns_;
       const double left = counted.norm();
       for (double share = 1.0;; share *= 0.5) {
         if (share < least_share) {
@@ -352,12 +374,12 @@ class Smoothing {
   std::vector<int> multiplier_unknowns_;
   Eigen::VectorXd node_weights_;  ///< by which laws at a node are divided, to be lengths
   Index unknown_rows_ = 0, multipliers_ = 0;
-  Eigen::MatrixXd compliance_;
   Eigen::VectorXd free_, unknowns_;
   double largest_ = 0.0, scale_ = 0.0;              ///< of pressures and of jumps
   double decade_ = 0.0;                             ///< of the rounding pressure, beneath the largest one
   double law_share_ = 0.0, law_share_along_ = 0.0;  ///< of the augmentations, beside those of the bodies
   int used_ = 0, total_ = 0;
+  InterpolatedSolver solver_;
 };
 
 }  // namespace

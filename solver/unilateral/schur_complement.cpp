@@ -5,42 +5,12 @@
 #include <unordered_map>
 #include <utility>
 
-#include "solver/parallel.hpp"
+#include "solver/linear/sparse_products.hpp"
 
 namespace comma::solver {
 namespace {
 
 using SparseColumns = Eigen::SparseMatrix<double>;
-
-/// Columns of a dense product that one part makes.
-constexpr Eigen::Index part_columns = 64;
-
-/// part(first, width) for all columns.
-template <typename Part>
-void by_columns(Eigen::Index columns, const Part& part) {
-  run_parts(static_cast<int>((columns + part_columns - 1) / part_columns), [&](int number) {
-    const Eigen::Index first = number * part_columns;
-    part(first, std::min(part_columns, columns - first));
-  });
-}
-
-Eigen::MatrixXd product(const Eigen::MatrixXd& dense, const SparseColumns& sparse) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(dense.rows(), sparse.cols());
-  by_columns(sparse.cols(), [&](Eigen::Index first, Eigen::Index width) {
-    for (Eigen::Index column = first; column < first + width; ++column)
-      for (SparseColumns::InnerIterator it(sparse, column); it; ++it)
-        result.col(column) += it.value() * dense.col(it.row());
-  });
-  return result;
-}
-
-Eigen::MatrixXd product(const RowMatrix& sparse, const Eigen::MatrixXd& dense) {
-  Eigen::MatrixXd result(sparse.rows(), dense.cols());
-  by_columns(dense.cols(), [&](Eigen::Index first, Eigen::Index width) {
-    result.middleCols(first, width) = sparse * dense.middleCols(first, width);
-  });
-  return result;
-}
 
 }  // namespace
 
@@ -96,8 +66,8 @@ void SchurComplement::solve_factor() {
 }
 
 Eigen::VectorXd SchurComplement::times_factors(const Eigen::VectorXd& x) const {
-  const Eigen::VectorXd on_support = on_support_.transpose() * x;
-  Eigen::VectorXd result = on_support_ * symmetric_product(factor_, on_support);
+  const Eigen::VectorXd forces = on_support_.transpose() * x;
+  Eigen::VectorXd result = on_support_ * symmetric_product(factor_, forces);
   if (softness_.size()) result += softness_.cwiseProduct(x);
   return result;
 }
@@ -130,21 +100,29 @@ Eigen::MatrixXd Responses::whole() const {
   return result;
 }
 
+RowMatrix SchurComplement::on_support(const std::vector<int>& rows) const {
+  std::vector<Eigen::Triplet<double>> entries;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    for (RowMatrix::InnerIterator it(on_support_, rows[k]); it; ++it)
+      entries.emplace_back(static_cast<int>(k), static_cast<int>(it.col()), it.value());
+  RowMatrix taken(static_cast<Eigen::Index>(rows.size()), on_support_.cols());
+  taken.setFromTriplets(entries.begin(), entries.end());
+  return taken;
+}
+
+std::optional<SchurComplement::Factors> SchurComplement::factors(const std::vector<int>& rows) const {
+  if (!has_factors() || softness_.size()) return std::nullopt;
+  return Factors{on_support(rows), factor_};
+}
+
 Responses SchurComplement::responses(const std::vector<int>& rows, const SparseColumns& forces) const {
   const auto count = static_cast<Eigen::Index>(rows.size());
   if (has_factors()) {
-    std::vector<Eigen::Triplet<double>> entries;
     Eigen::VectorXd own = Eigen::VectorXd::Zero(count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      const int row = rows[static_cast<std::size_t>(k)];
-      if (softness_.size()) own[k] = softness_[row];
-      for (RowMatrix::InnerIterator it(on_support_, row); it; ++it)
-        entries.emplace_back(static_cast<int>(k), static_cast<int>(it.col()), it.value());
-    }
-    RowMatrix taken(count, on_support_.cols());
-    taken.setFromTriplets(entries.begin(), entries.end());
-    const SparseColumns on_support = SparseColumns(taken.transpose()) * forces;
-    return {std::move(taken), product(factor_, on_support), own.asDiagonal() * forces};
+    for (Eigen::Index k = 0; k < count && softness_.size(); ++k) own[k] = softness_[rows[static_cast<std::size_t>(k)]];
+    RowMatrix taken = on_support(rows);
+    const SparseColumns moving = SparseColumns(taken.transpose()) * forces;
+    return {std::move(taken), product(factor_, moving), own.asDiagonal() * forces};
   }
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(count, forces.cols());
   const bool is_whole = count == size() && std::ranges::is_sorted(rows);
@@ -257,6 +235,15 @@ SchurComplement::Column SchurComplement::column(int index) const {
   if (has_factors() && columns_[index].size() == 0) columns_[index] = column_of_factors(index);
   const double* first = whole_matrix_.size() ? whole_matrix_.col(index).data() : columns_[index].data();
   return {first, size()};
+}
+
+double SchurComplement::own(int index) const {
+  if (!has_factors()) return column(index)[index];
+  double sum = softness_.size() ? softness_[index] : 0.0;
+  for (RowMatrix::InnerIterator one(on_support_, index); one; ++one)
+    for (RowMatrix::InnerIterator other(on_support_, index); other; ++other)
+      sum += one.value() * factor_(one.col(), other.col()) * other.value();
+  return sum;
 }
 
 Eigen::Map<Eigen::VectorXd> SchurComplement::entries(int row) {

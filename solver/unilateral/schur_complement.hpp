@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -73,12 +74,20 @@ class SchurComplement {
   using Column = Eigen::Map<const Eigen::VectorXd>;
   /// Column of S (m); it must have been required.
   Column column(int index) const;
+  /// An entry of the diagonal; its column must have been required.
+  double own(int index) const;
   /// S x (m); columns of entries that are not zero are required.
   Eigen::VectorXd times(const Eigen::VectorXd& x);
   /// The same to single precision, in half the time or less where all columns are known and many.
   Eigen::VectorXd times_roughly(const Eigen::VectorXd& x);
   /// S F between some rows (n), for forces F on these rows alone (n x k); their columns must have been required.
   Responses responses(const std::vector<int>& rows, const Eigen::SparseMatrix<double>& forces) const;
+  /// A of these rows over the support, and C, where S = A C A^T is kept so and rows do not give way by themselves.
+  struct Factors {
+    RowMatrix rows;
+    const Eigen::MatrixXd& compliance;
+  };
+  std::optional<Factors> factors(const std::vector<int>& rows) const;
   /// The entries on some rows of S x for an x on these rows alone (one a row).
   Eigen::VectorXd times_roughly(const std::vector<int>& rows, const Eigen::VectorXd& x);
   bool known(int index) const {
@@ -121,6 +130,7 @@ class SchurComplement {
   void choose_form();
   bool replace_factored_rows(RowMatrix& rows, std::vector<int>& keys);
   void solve_factor();
+  RowMatrix on_support(const std::vector<int>& rows) const;
   Eigen::VectorXd times_factors(const Eigen::VectorXd& x) const;
   Eigen::VectorXd column_of_factors(int row) const;
   void take_columns(const std::vector<int>& origin);
