@@ -101,13 +101,14 @@ void CondensedEquations::take_jumps_of_penalties() {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
     const ContactLaw law = law_of(p);
-    const Vector3d multiplier = multiplier_at(point);
+    const Vector3d multiplier = live_part(law, multiplier_at(point));
     if (law.penalised) jumps_[point.first_row] = -multiplier[0] / law.penalty();
     if (!law.friction_penalised || point.rows == 1) continue;
-    auto slip = jumps_.segment(point.first_row + 1, point.rows - 1);
-    const Eigen::VectorXd sticking = multiplier.segment(1, point.rows - 1) / law.friction_penalty();
+    const Vector3d jump = jump_at(point), live = live_part(law, jump);
+    const Eigen::Vector2d sticking = multiplier.tail<2>() / law.friction_penalty();
     const bool slides = state_.statuses[p] == ContactStatus::sliding && sticking.norm() > 0.0;
-    slip = (slides ? std::max(1.0, slip.norm() / sticking.norm()) : 1.0) * sticking;
+    const Eigen::Vector2d slip = (slides ? std::max(1.0, live.tail<2>().norm() / sticking.norm()) : 1.0) * sticking;
+    jumps_.segment(point.first_row + 1, point.rows - 1) = (slip + (jump - live).tail<2>()).head(point.rows - 1);
   }
 }
 
@@ -378,7 +379,8 @@ Vector3d CondensedEquations::law_rounding(std::size_t p) const {
   const ContactLaw law = law_of(p);
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const double normal = state_.statuses[p] == ContactStatus::open ? epsilon / law.augmentation : 0.0;
-  const double along = state_.statuses[p] == ContactStatus::sticking ? 0.0 : epsilon / law.friction_augmentation;
+  const bool is_slip = state_.statuses[p] == ContactStatus::sticking && law.dead.isZero();
+  const double along = is_slip ? 0.0 : epsilon / law.friction_augmentation;
   return {normal * sums[0], along * sums[1], along * sums[2]};
 }
 

@@ -24,6 +24,14 @@ Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& st
   return value;
 }
 
+Eigen::MatrixXd resisting_rows(const CondensedPoint& point) {
+  const bool rubs = point.law.friction > 0.0, has_dead = point.rows == 3 && !point.law.dead.isZero();
+  const int count = !rubs ? 1 : has_dead ? 2 : point.rows;
+  Eigen::MatrixXd result = Eigen::MatrixXd::Identity(count, point.rows);
+  if (rubs && has_dead) result.row(1) << 0.0, -point.law.dead[1], point.law.dead[0];
+  return result;
+}
+
 double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps) {
   if (point.rows < 2) return 0.0;
   Vector3d jump = Vector3d::Zero();
@@ -47,7 +55,7 @@ Eigen::VectorXd multiplier_forces(const CondensedProblem& problem, const Condens
   for (std::size_t p = 0; p < problem.points.size(); ++p) {
     const CondensedPoint& point = problem.points[p];
     if (point.rows == 0 || state.statuses[p] == ContactStatus::open) continue;
-    const Vector3d multiplier = multiplier_at(problem, state, point);
+    const Vector3d multiplier = live_part(point.law, multiplier_at(problem, state, point));
     const double of_shear =
         point.law.share_pressure > 0.0 ? std::max(0.0, multiplier[0]) / point.law.share_pressure : 1.0;
     for (int c = 0; c < point.rows; ++c)

@@ -102,6 +102,10 @@ bool has_penalty(const CondensedProblem& problem);
 Eigen::Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& state,
                               const CondensedPoint& point);
 
+/// The rows along which the law of a point resists, as combinations of its own: the normal, and where there is friction
+/// its tangents, or the one across its dead direction. One a row, on `point.rows`.
+Eigen::MatrixXd resisting_rows(const CondensedPoint& point);
+
 /// How far a point slips where the rows have these jumps, along its dead direction aside (that is a part of the gap
 /// along a surface that lies askew); 0 without friction.
 double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps);

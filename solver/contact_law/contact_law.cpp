@@ -79,6 +79,12 @@ void add_shear(const ContactLaw& law, const Shear& shear, const Vector3d& multip
   value.residual_by_jump.bottomRows<2>() = -value.traction_by_jump.bottomRows<2>() / augmentation;
 }
 
+/// What is left of a sticking point is its slip, and along the dead direction the multiplier that is to vanish.
+Vector2d left_of_sticking(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
+  return live_part(law, jump).tail<2>() -
+         (multiplier - live_part(law, multiplier)).tail<2>() / law.friction_augmentation;
+}
+
 /// `unit`: the shear at the pressure of shares. Pressures that press nothing have no derivative.
 void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shear& unit, double pressure,
                          const Vector3d& multiplier, const Vector3d& jump, ContactLawValue& value) {
@@ -95,7 +101,7 @@ void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shea
   // Sticking points slip by nothing: said without the shear, of any size, that it takes.
   const bool sticks = status == ContactStatus::sticking && !law.friction_penalised;
   const Vector2d left =
-      sticks ? Vector2d(jump.tail<2>()) : Vector2d((unit.value - multiplier.tail<2>()) / augmentation);
+      sticks ? left_of_sticking(law, multiplier, jump) : Vector2d((unit.value - multiplier.tail<2>()) / augmentation);
   const bool counts_by_pressure = status != ContactStatus::open && !law.friction_penalised;
   const double weight = !counts_by_pressure ? 1.0 : is_held ? law.held_share : std::max(present, least_pressure_share);
   value.residual.tail<2>() = weight * left;
@@ -108,8 +114,19 @@ void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shea
       (law.penalised ? -law.augmentation : 0.0) / law.share_pressure * left;
 }
 
-ContactLawValue live_law(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier,
-                         const Vector3d& jump) {
+/// That of live parts: along the dead direction it neither is nor changes.
+Shear live_shear(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier, const Vector3d& jump) {
+  const Vector3d live = live_part(law, multiplier);
+  Shear shear = shear_of(law, status, pressure_that_limits(law, multiplier, jump), live.tail<2>(),
+                         trial_shear(law, live, live_part(law, jump)));
+  shear.by_trial *= live_directions(law);
+  return shear;
+}
+
+}  // namespace
+
+ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier,
+                            const Vector3d& jump) {
   ContactLawValue value;
   if (status != ContactStatus::open) {
     value.traction[0] = trial_pressure(law, multiplier, jump);
@@ -121,19 +138,16 @@ ContactLawValue live_law(const ContactLaw& law, ContactStatus status, const Vect
   value.residual_by_jump(0, 0) = value.traction_by_jump(0, 0) / law.augmentation;
   // While it is closed without penalty the residual is the gap itself: pressures of any size must not round it.
   if (status != ContactStatus::open && !law.penalised) value.residual[0] = -jump[0];
-  const double limiting = limiting_pressure(law, multiplier, jump);
-  const Shear shear = shear_of(law, status, pressure_that_limits(law, multiplier, jump), multiplier.tail<2>(),
-                               trial_shear(law, multiplier, jump));
+  const Shear shear = live_shear(law, status, multiplier, jump);
   if (law.share_pressure > 0.0) {
-    add_shear_by_shares(law, status, shear, limiting, multiplier, jump, value);
+    add_shear_by_shares(law, status, shear, limiting_pressure(law, multiplier, jump), multiplier, jump, value);
     return value;
   }
   add_shear(law, shear, multiplier, value);
-  if (status == ContactStatus::sticking && !law.friction_penalised) value.residual.tail<2>() = jump.tail<2>();
+  if (status == ContactStatus::sticking && !law.friction_penalised)
+    value.residual.tail<2>() = left_of_sticking(law, multiplier, jump);
   return value;
 }
-
-}  // namespace
 
 double trial_pressure(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
   return pressure_share(law) * multiplier[0] - law.augmentation * jump[0];
@@ -144,22 +158,7 @@ Vector3d live_part(const ContactLaw& law, Vector3d value) {
   return value;
 }
 
-void leave_out_dead(const ContactLaw& law, const Vector3d& multiplier, ContactLawValue& value) {
-  if (law.dead.isZero()) return;
-  const Matrix2d dead = law.dead * law.dead.transpose(), live = Matrix2d::Identity() - dead;
-  for (Eigen::Matrix3d* derivative :
-       {&value.traction_by_multiplier, &value.traction_by_jump, &value.residual_by_multiplier, &value.residual_by_jump})
-    derivative->rightCols<2>() *= live;
-  value.residual.tail<2>() -= dead * multiplier.tail<2>() / law.friction_augmentation;
-  value.residual_by_multiplier.bottomRightCorner<2, 2>() -= dead / law.friction_augmentation;
-}
-
-ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier,
-                            const Vector3d& jump) {
-  ContactLawValue value = live_law(law, status, live_part(law, multiplier), live_part(law, jump));
-  leave_out_dead(law, multiplier, value);
-  return value;
-}
+Matrix2d live_directions(const ContactLaw& law) { return Matrix2d::Identity() - law.dead * law.dead.transpose(); }
 
 ContactStatus contact_status(const ContactLaw& law, bool closed, const Vector3d& multiplier, const Vector3d& jump) {
   const double pressure = trial_pressure(law, multiplier, jump);

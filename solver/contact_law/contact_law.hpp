@@ -17,7 +17,8 @@ struct ContactLaw {
   double friction_augmentation = 100.0;  ///< of the shear by the slip
   bool friction_penalised = false;       ///< the shear is friction_penalty() times the slip while it sticks
   double shear_share = 0.0;              ///< the same as pressure_share
-  /// A unit vector along the tangents, or zero: what cannot slip along it, whatever the shear, takes none.
+  /// A unit vector along the tangents, or zero: along it there is no shear. Its multiplier vanishes, as that of a shear
+  /// without friction does.
   Eigen::Vector2d dead = Eigen::Vector2d::Zero();
   /// Positive: a shear is a share of the limit of friction, in units of `friction` times this pressure: what the law
   /// gives at this pressure times the present one over it. 0: shears are themselves.
@@ -62,8 +63,8 @@ ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const E
 
 /// A multiplier or a jump without what lies along the dead direction of the law.
 Eigen::Vector3d live_part(const ContactLaw& law, Eigen::Vector3d value);
-/// Makes of a law of live parts that of the whole: multipliers along the dead direction vanish.
-void leave_out_dead(const ContactLaw& law, const Eigen::Vector3d& multiplier, ContactLawValue& value);
+/// The same of two tangents, as a matrix.
+Eigen::Matrix2d live_directions(const ContactLaw& law);
 
 /// The pressure that the law brings while it is closed; it opens where this does not push.
 double trial_pressure(const ContactLaw& law, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <unordered_set>
 
-#include <fmt/format.h>
-
 #include "solver/contact/patch_points.hpp"
 #include "solver/contact_law/dead_directions.hpp"
 #include "solver/error.hpp"
@@ -97,7 +95,7 @@ CondensedPoint ContactRows::condensed(const ContactPoint& point) const {
   if (excluded &&
       (excluded->isZero() || (dimension_ == 2 && excluded->head<2>().norm() > empty_row_tolerance * excluded->norm())))
     result.law.friction = 0.0;
-  if (result.law.friction > 0.0) result.components = dimension_ == 2 || excluded ? 2 : 3;
+  if (result.law.friction > 0.0) result.components = dimension_;
   const auto nodes = mesh_.cell(point.cell);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     if (point.node >= 0 && nodes[i] != point.node) continue;
@@ -158,18 +156,16 @@ void ContactRows::choose_directions(Positions positions, double time) {
 ContactRows::Directions ContactRows::directions(const ContactPoint& point) const {
   const Vector3d& normal = point.normal;
   if (dimension_ == 2) return {normal, Vector3d(-normal[1], normal[0], 0.0), Vector3d::UnitZ()};
-  const Vector3d excluded =
-      excluded_direction(definition_.zones[static_cast<std::size_t>(point.zone)].mixed, point, mesh_)
-          .value_or(Vector3d::Zero());
-  const Vector3d second =
-      excluded.isZero() ? axis_beside(normal, zone_directions_[static_cast<std::size_t>(point.zone)]) : excluded;
+  const Vector3d second = axis_beside(normal, zone_directions_[static_cast<std::size_t>(point.zone)]);
   const Vector3d along = second - normal.dot(second) * normal;
-  if (!(along.norm() > empty_row_tolerance * second.norm()))
-    throw Error(
-        "degenerate-facet",
-        fmt::format("the direction without friction is the normal of slave face {}", mesh_.cell_name(point.cell)),
-        "give a direction along the surface (DIRE_EXCL_FROT)");
   return {normal, along.normalized().cross(normal), along.normalized()};
+}
+
+/// Along the direction that the user excludes (DIRE_EXCL_FROT), where friction is left along another.
+void ContactRows::let_slide(const ContactPoint& point, const Directions& along, CondensedPoint& condensed) const {
+  if (dimension_ == 2 || !(condensed.law.friction > 0.0)) return;
+  const auto excluded = excluded_direction(definition_.zones[static_cast<std::size_t>(point.zone)].mixed, point, mesh_);
+  if (excluded) condensed.law.dead = along_tangents(*excluded, along[1], along[2], mesh_.cell_name(point.cell));
 }
 
 /// The gap between the initial places of the nodes.
@@ -210,6 +206,7 @@ std::vector<CondensedPoint> ContactRows::build(const Eigen::VectorXd& reference)
       each.first_row = static_cast<int>(base.size());
       each.rows = each.components;
       const Directions along = directions(point);
+      let_slide(point, along, each);
       for (int c = 0; c < each.rows; ++c)
         add_row(each.first_row + c, point, along[static_cast<std::size_t>(c)], entries);
       base.push_back(initial_gap(point));

@@ -57,6 +57,7 @@ class ContactRows {
   void number_patches(int zone);
   void choose_directions(Positions positions, double time);
   CondensedPoint condensed(const ContactPoint& point) const;
+  void let_slide(const ContactPoint& point, const Directions& along, CondensedPoint& condensed) const;
   double initial_gap(const ContactPoint& point) const;
   void add_row(int row, const ContactPoint& point, const Eigen::Vector3d& direction, RowEntries& entries) const;
   void settle_blocked(std::vector<CondensedPoint>& points);

@@ -7,6 +7,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "solver/error.hpp"
+#include "solver/unilateral/conditions.hpp"
 
 namespace comma::solver {
 namespace {
@@ -22,12 +23,13 @@ void find_dead_directions(const RowMatrix& reduced_rows, std::vector<CondensedPo
   for (CondensedPoint& point : points) {
     if (point.rows < 2 || !(point.law.friction > 0.0)) continue;
     const auto rows = reduced_rows.middleRows(point.first_row, point.rows);
-    const Eigen::MatrixXd squares = Eigen::MatrixXd(rows * rows.transpose());
+    const Eigen::MatrixXd resisting = resisting_rows(point);
+    const Eigen::MatrixXd squares = resisting * Eigen::MatrixXd(rows * rows.transpose()) * resisting.transpose();
     const double dead = dead_share * squares.trace();
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> motions(squares);
-    const Eigen::VectorXd along = motions.eigenvectors().col(0).tail(point.rows - 1);
+    const Eigen::VectorXd along = motions.eigenvectors().col(0).tail(squares.rows() - 1);
     const bool shear_is_dead = motions.eigenvalues()[0] <= dead && along.norm() >= least_along;
-    if (motions.eigenvalues()[1] <= dead || (point.rows == 2 && shear_is_dead))
+    if (motions.eigenvalues()[1] <= dead || (squares.rows() == 2 && shear_is_dead))
       point.idle_friction = std::exchange(point.law.friction, 0.0);
     else if (shear_is_dead)
       point.law.dead = along.normalized();
@@ -39,15 +41,17 @@ std::optional<Eigen::Vector3d> excluded_direction(const MixedZone& zone, const C
   if (nodes.empty()) return {};
   const auto is_left_out = [&](int node) { return std::ranges::find(nodes, node) != nodes.end(); };
   const auto& direction = zone.frictionless_direction;
-  if (point.node < 0 && direction && std::ranges::any_of(mesh.cell(point.cell), is_left_out))
-    throw Error(
-        "unsupported",
-        fmt::format("slave face {} has points between its nodes, and DIRE_EXCL_FROT is known of points at nodes",
-                    mesh.cell_name(point.cell)),
-        "take linear faces with INTEGRATION='AUTO', or leave DIRE_EXCL_FROT out: then these nodes have no friction at "
-        "all");
   if (!is_nearest_to(point, mesh, is_left_out)) return {};
   return direction ? Eigen::Vector3d(direction->data()) : Eigen::Vector3d::Zero();
+}
+
+Eigen::Vector2d along_tangents(const Eigen::Vector3d& direction, const Eigen::Vector3d& first,
+                               const Eigen::Vector3d& second, const std::string& face) {
+  const Eigen::Vector2d along(direction.dot(first), direction.dot(second));
+  if (!(along.norm() > empty_row_tolerance * direction.norm()))
+    throw Error("degenerate-facet", fmt::format("the direction without friction is the normal of slave face {}", face),
+                "give a direction along the surface (DIRE_EXCL_FROT)");
+  return along.normalized();
 }
 
 }  // namespace comma::solver

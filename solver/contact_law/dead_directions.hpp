@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "solver/contact/contact_points.hpp"
@@ -17,8 +18,12 @@ namespace comma::solver {
 void find_dead_directions(const RowMatrix& reduced_rows, std::vector<CondensedPoint>& points);
 
 /// Along what a point has no friction, because it lies on a node that has none there, or nearest to such nodes
-/// (SANS_GROUP_NO_FR, DIRE_EXCL_FROT); null: along no direction. Throws Error `unsupported` for a point between such
-/// nodes, where it would be one direction alone.
+/// (SANS_GROUP_NO_FR, DIRE_EXCL_FROT); zero: along none at all; null: it has friction all around.
 std::optional<Eigen::Vector3d> excluded_direction(const MixedZone& zone, const ContactPoint& point, const Mesh& mesh);
+
+/// The part of a direction along the surface, of length one, in the tangents. Throws Error `degenerate-facet` where it
+/// is the normal of the face, which the message names.
+Eigen::Vector2d along_tangents(const Eigen::Vector3d& direction, const Eigen::Vector3d& first,
+                               const Eigen::Vector3d& second, const std::string& face);
 
 }  // namespace comma::solver

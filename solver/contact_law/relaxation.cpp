@@ -80,10 +80,17 @@ class Relaxation {
     return own;
   }
 
+  /// As if the point could not move along its dead direction, where no force is sought.
+  Matrix3d live_compliance(const CondensedPoint& point) const {
+    Matrix3d live = Matrix3d::Identity();
+    live.bottomRightCorner<2, 2>() = live_directions(point.law);
+    return live * own_compliance(point) * live;
+  }
+
   double visit(std::size_t p) {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0) return 0.0;
-    const Matrix3d own = own_compliance(point);
+    const Matrix3d own = live_compliance(point);
     if (!(own(0, 0) > held_compliance * largest_compliance_)) return 0.0;
     Vector3d present = Vector3d::Zero();
     Vector3d others = Vector3d::Zero();
@@ -91,11 +98,16 @@ class Relaxation {
       present[c] = forces_[point.first_row + c];
       others[c] = jumps_[point.first_row + c];
     }
-    others -= own * present;
+    present = live_part(point.law, present);
+    others = live_part(point.law, others) - own * present;
     const bool stays_closed = point.bilateral && state_.statuses[p] != ContactStatus::open;
     const Vector3d wanted = local_force(point, own, others, present, stays_closed, state_.statuses[p]);
-    for (int c = 0; c < point.rows; ++c) add_force(point.first_row + c, wanted[c] - present[c]);
-    return (wanted - present).cwiseAbs().maxCoeff();
+    double change = 0.0;
+    for (int c = 0; c < point.rows; ++c) {
+      change = std::max(change, std::abs(wanted[c] - forces_[point.first_row + c]));
+      add_force(point.first_row + c, wanted[c] - forces_[point.first_row + c]);
+    }
+    return change;
   }
 
   /// As it stands now: solved for, the force would have no bound where contact has not yet taken the body's weight.
@@ -124,6 +136,7 @@ class Relaxation {
                                  const Vector3d& others) {
     Matrix3d matrix = own;
     matrix(0, 0) = normal;
+    matrix.bottomRightCorner<2, 2>() += own.trace() * point.law.dead * point.law.dead.transpose();
     if (point.law.friction_penalised)
       for (int c = 1; c < point.rows; ++c) matrix(c, c) += 1.0 / (point.weight * point.law.friction_augmentation);
     Vector3d force = Vector3d::Zero();
@@ -167,9 +180,14 @@ class Relaxation {
     if (state_.statuses[p] == ContactStatus::open || point.rows == 0) return;
     const auto by_penalty = [&](int row, double augmentation) { return -forces_[row] / (point.weight * augmentation); };
     jumps_[point.first_row] = point.law.penalised ? by_penalty(point.first_row, point.law.augmentation) : 0.0;
-    for (int row = point.first_row + 1;
-         row < point.first_row + point.rows && state_.statuses[p] == ContactStatus::sticking; ++row)
-      jumps_[row] = point.law.friction_penalised ? by_penalty(row, point.law.friction_augmentation) : 0.0;
+    if (state_.statuses[p] != ContactStatus::sticking) return;
+    Vector3d jump = Vector3d::Zero();
+    jump.head(point.rows) = jumps_.segment(point.first_row, point.rows);
+    const Vector3d dead = jump - live_part(point.law, jump);
+    for (int c = 1; c < point.rows; ++c) {
+      const int row = point.first_row + c;
+      jumps_[row] = dead[c] + (point.law.friction_penalised ? by_penalty(row, point.law.friction_augmentation) : 0.0);
+    }
   }
 
   void take_multipliers() {

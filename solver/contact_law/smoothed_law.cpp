@@ -65,14 +65,6 @@ Vector2d SmoothedLaw::trial_shear(const Vector3d& multiplier, const Vector3d& ju
 }
 
 SmoothedLawValue SmoothedLaw::at(const Vector3d& multiplier, const Vector3d& jump) const {
-  SmoothedLawValue value = live_value(live_part(law_, multiplier), live_part(law_, jump));
-  ContactLaw law = law_;
-  law.friction_augmentation = bodies_.along;
-  leave_out_dead(law, multiplier, value);
-  return value;
-}
-
-SmoothedLawValue SmoothedLaw::live_value(const Vector3d& multiplier, const Vector3d& jump) const {
   const double trial = trial_pressure(multiplier, jump);
   // That a pressure times a gap is the square of the rounding over the stiffness does not depend on the augmentation.
   const PositivePart pressure =
@@ -110,14 +102,23 @@ SmoothedLaw::Shear SmoothedLaw::shear_of(const Vector2d& trial, double limit, do
   return shear;
 }
 
+/// That of live parts: what lies along the dead direction is cut off.
+SmoothedLaw::Shear SmoothedLaw::live_shear(const Vector3d& multiplier, const Vector3d& jump, double limit) const {
+  Shear shear = shear_of(trial_shear(live_part(law_, multiplier), live_part(law_, jump)), limit,
+                         law_.friction * smoothing_.pressure * std::sqrt(stiffness_along_ / bodies_.along));
+  const Matrix2d live = live_directions(law_);
+  shear.by_trial *= live;
+  shear.by_trial_missing = shear.by_trial_missing * live + law_.dead * law_.dead.transpose();
+  return shear;
+}
+
 void SmoothedLaw::add_shear(const PositivePart& pressure, const Vector3d& multiplier, const Vector3d& jump,
                             SmoothedLawValue& result) const {
   const double softness = law_.friction_penalised ? 1.0 / law_.friction_augmentation : 0.0;
   const PositivePart limiting = PositivePart::of(multiplier[0], smoothing_.pressure);
   const bool by_shares = law_.share_pressure > 0.0;
   const double limit = law_.friction * (by_shares ? law_.share_pressure : limiting.value);
-  const Shear shear = shear_of(trial_shear(multiplier, jump), limit,
-                               law_.friction * smoothing_.pressure * std::sqrt(stiffness_along_ / bodies_.along));
+  const Shear shear = live_shear(multiplier, jump, limit);
   // By shares the shear is that of a pressure that is given, times the present one over it.
   const double present = by_shares ? limiting.value / law_.share_pressure : 1.0;
   const Vector2d by_pressure = by_shares ? Vector2d(limiting.slope / law_.share_pressure * shear.value)
@@ -129,8 +130,9 @@ void SmoothedLaw::add_shear(const PositivePart& pressure, const Vector3d& multip
   result.counts_along = count_of(shear.sticks, stiffness_along_, bodies_.along);
 
   const double weight = law_.friction_penalised ? 1.0 : present;
-  const Vector2d left = (1.0 - shear.missing) * (jump.tail<2>() - softness * multiplier.tail<2>()) -
-                        shear.missing / stiffness_along_ * multiplier.tail<2>();
+  const Vector2d resists = live_part(law_, multiplier).tail<2>(), slip = live_part(law_, jump).tail<2>();
+  const Vector2d left = (1.0 - shear.missing) * (slip - softness * resists) -
+                        (shear.missing * resists + multiplier.tail<2>() - resists) / stiffness_along_;
   result.residual.tail<2>() = weight * left;
   result.residual_by_multiplier.bottomRightCorner<2, 2>() =
       -weight * (shear.by_trial_missing / stiffness_along_ + softness * shear.by_trial);

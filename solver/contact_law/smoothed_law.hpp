@@ -46,7 +46,7 @@ class SmoothedLaw {
 
   double trial_pressure(const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump) const;
   Eigen::Vector2d trial_shear(const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump) const;
-  SmoothedLawValue live_value(const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump) const;
+  Shear live_shear(const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump, double limit) const;
   static Shear shear_of(const Eigen::Vector2d& trial, double limit, double e);
   void add_shear(const PositivePart& pressure, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump,
                  SmoothedLawValue& result) const;

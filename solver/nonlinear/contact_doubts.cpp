@@ -223,16 +223,16 @@ RowMatrix closed_rows(const SolvedContact& contact) {
   for (std::size_t p = 0; p < contact.points().size(); ++p) {
     const CondensedPoint& point = contact.problem.points[p];
     if (point.rows == 0 || !contact.is_closed(p) || contact.is_free_of_force(p)) continue;
-    const int held = point.law.friction > 0.0 ? point.rows : 1;  // the limit of what slides goes with the pressure
-    for (int c = 0; c < held; ++c, ++count) {
-      const int row = point.first_row + c;
-      const double size = std::sqrt(contact.rows.reduced().row(row).squaredNorm());
-      for (RowMatrix::InnerIterator it(contact.rows.reduced(), row); it && size > 0.0; ++it)
-        entries.emplace_back(count, static_cast<int>(it.col()), it.value() / size);
-    }
+    const Eigen::MatrixXd resisting = resisting_rows(point);  // the limit of what slides goes with the pressure
+    for (int r = 0; r < static_cast<int>(resisting.rows()); ++r, ++count)
+      for (int c = 0; c < point.rows; ++c)
+        if (resisting(r, c) != 0.0) entries.emplace_back(count, point.first_row + c, resisting(r, c));
   }
-  RowMatrix rows(count, contact.rows.reduced().cols());
-  rows.setFromTriplets(entries.begin(), entries.end());
+  RowMatrix combinations(count, contact.rows.reduced().rows());
+  combinations.setFromTriplets(entries.begin(), entries.end());
+  RowMatrix rows = combinations * contact.rows.reduced();
+  for (int row = 0; row < count; ++row)
+    if (const double size = rows.row(row).norm(); size > 0.0) rows.row(row) /= size;
   return rows;
 }
 

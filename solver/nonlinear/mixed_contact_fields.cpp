@@ -53,11 +53,13 @@ double share_of_limit(const SolvedContact& contact, const CondensedPoint& point,
 }
 
 /// Where conditions prescribe how a point slides the law leaves friction out, and it is what Coulomb's law says against
-/// that slip.
+/// that slip, as far as there is friction along it.
 Eigen::VectorXd shear_rows(const SolvedContact& contact, std::size_t p) {
   const CondensedPoint& point = contact.problem.points[p];
   if (!(point.idle_friction > 0.0)) return contact.forces.segment(point.first_row + 1, point.rows - 1);
-  const Eigen::VectorXd slip = contact.jumps.segment(point.first_row + 1, point.rows - 1);
+  Vector3d jump = Vector3d::Zero();
+  jump.head(point.rows) = contact.jumps.segment(point.first_row, point.rows);
+  const Eigen::VectorXd slip = live_part(point.law, jump).segment(1, point.rows - 1);
   const double size = slip.norm();
   const double limit = point.idle_friction * contact.forces[point.first_row];
   if (!(size > least_prescribed_slip * contact.problem.displacement) || !(limit > 0.0))

@@ -34,6 +34,29 @@ TEST_CASE("Tangents of the contact law are its derivatives") {
           }
 }
 
+TEST_CASE("Along a dead direction the law is that of a point without friction, and across it that of one with it") {
+  const Vector3d multiplier(100.0, 7.0, 12.0), jump(-0.03, 0.02, 0.05), across(1.0, 1.0, 0.0);
+  for (const double share_pressure : {0.0, 80.0})
+    for (const ContactStatus status : {ContactStatus::open, ContactStatus::sliding, ContactStatus::sticking}) {
+      ContactLaw law;
+      law.augmentation = 900.0;
+      law.friction_augmentation = 700.0;
+      law.share_pressure = share_pressure;
+      const ContactStatus without = status == ContactStatus::open ? status : ContactStatus::sliding;
+      const ContactLawValue smooth = contact_law(law, without, multiplier, jump);
+      law.friction = 0.3;
+      const ContactLawValue whole =
+          contact_law(law, status, multiplier.cwiseProduct(across), jump.cwiseProduct(across));
+      law.dead = Eigen::Vector2d::UnitY();
+      const ContactLawValue value = contact_law(law, status, multiplier, jump);
+      CAPTURE(share_pressure, static_cast<int>(status));
+      CHECK(value.traction[2] == 0.0);
+      CHECK(value.residual[2] == Approx(smooth.residual[2]).epsilon(1e-14));
+      CHECK((value.traction - whole.traction).norm() <= 1e-14 * whole.traction.norm());
+      CHECK((value.residual - whole.residual).head<2>().norm() <= 1e-14 * whole.residual.norm());
+    }
+}
+
 TEST_CASE("A penalty that the multiplier takes part of is the same penalty once the law holds") {
   ContactLaw law;
   law.penalised = law.friction_penalised = true;

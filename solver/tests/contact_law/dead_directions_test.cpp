@@ -89,5 +89,64 @@ TEST_CASE("Nodes that are left out of friction are so along the given direction 
   zone.frictionless_direction = {0, 2, 0};
   CHECK(*excluded_direction(zone, at_it, mesh) == Eigen::Vector3d(0, 2, 0));
   CHECK_FALSE(excluded_direction(zone, elsewhere, mesh));
-  CHECK_THROWS_WITH(excluded_direction(zone, between, mesh), Catch::Contains("points between its nodes"));
+}
+
+TEST_CASE("A point between nodes is without friction along the direction where the nodes nearest to it are") {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}};
+  mesh.add_cell(CellType::tria3, std::vector<int>{0, 1, 2});
+  MixedZone zone;
+  zone.frictionless_nodes = {1};
+  zone.frictionless_direction = {0, 2, 0};
+  const auto excluded_at = [&](double first, double second, double third) {
+    ContactPoint point;
+    point.cell = 0;
+    point.shape = {first, second, third};
+    return excluded_direction(zone, point, mesh);
+  };
+  CHECK(excluded_at(0.2, 0.6, 0.2) == Eigen::Vector3d(0, 2, 0));
+  CHECK_FALSE(excluded_at(0.6, 0.2, 0.2));
+  CHECK_FALSE(excluded_at(0.5, 0.5, 0.0));
+  zone.frictionless_nodes = {0, 1};
+  CHECK(excluded_at(0.5, 0.5, 0.0) == Eigen::Vector3d(0, 2, 0));
+}
+
+TEST_CASE("Of a direction without friction its part along the surface counts, and there has to be one") {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
+  CHECK((along_tangents({3, 4, -7}, x, y, "F1") - Eigen::Vector2d(0.6, 0.8)).norm() < 1e-15);
+  CHECK((along_tangents({3, 4, -7}, y, -x, "F1") - Eigen::Vector2d(0.8, -0.6)).norm() < 1e-15);
+  CHECK_THROWS_WITH(along_tangents({0, 0, 1}, x, y, "F1"), Catch::Contains("F1"));
+}
+
+TEST_CASE(
+    "Where both bodies are held along what friction is left, it moves nothing; else the excluded direction stays") {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), z = Eigen::Vector3d::UnitZ(), none = Eigen::Vector3d::Zero();
+  const auto with_excluded = [](double first, double second) {
+    CondensedPoint point = point_on_node(0, 3, 0.3);
+    point.law.dead = Eigen::Vector2d(first, second);
+    return std::vector{point};
+  };
+  // The second tangent is held.
+  auto points = with_excluded(1.0, 0.0);
+  find_dead_directions(rows_of(z, x, none), points);
+  CHECK(points[0].law.friction == 0.0);
+  CHECK(points[0].idle_friction == 0.3);
+  points = with_excluded(0.0, 1.0);
+  find_dead_directions(rows_of(z, x, none), points);
+  CHECK(points[0].law.friction == 0.3);
+  CHECK(points[0].law.dead == Eigen::Vector2d(0.0, 1.0));
+  // What is left lies askew, and moves something.
+  points = with_excluded(0.6, 0.8);
+  find_dead_directions(rows_of(z, x, none), points);
+  CHECK(points[0].law.friction == 0.3);
+  CHECK(points[0].law.dead == Eigen::Vector2d(0.6, 0.8));
+}
+
+TEST_CASE("A point resists along its normal and along its tangents but for the dead direction") {
+  CondensedPoint point = point_on_node(0, 3, 0.3);
+  CHECK(resisting_rows(point) == Eigen::Matrix3d::Identity());
+  point.law.dead = Eigen::Vector2d(0.6, 0.8);
+  CHECK(resisting_rows(point) == (Eigen::MatrixXd(2, 3) << 1, 0, 0, 0, -0.8, 0.6).finished());
+  point.law.friction = 0.0;
+  CHECK(resisting_rows(point) == (Eigen::MatrixXd(1, 3) << 1, 0, 0).finished());
 }

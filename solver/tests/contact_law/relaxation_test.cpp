@@ -23,6 +23,18 @@ TEST_CASE("Relaxation finds the statuses that Newton's method settles in") {
   }
 }
 
+TEST_CASE("So it does where points have no friction along one direction, in which they slip all the same") {
+  Coupled relaxed(6, 0.2);
+  for (CondensedPoint& point : relaxed.problem.points) point.law.dead = Eigen::Vector2d(0.6, 0.8);
+  Coupled solved = relaxed;
+  Eigen::VectorXd jumps;
+  REQUIRE(relax_condensed(relaxed.schur, relaxed.problem, relaxed.state, jumps));
+  REQUIRE(solve_condensed(solved.schur, solved.problem, solved.state).verdict == CondensedVerdict::solved);
+  CHECK(relaxed.state.statuses == solved.state.statuses);
+  CHECK((relaxed.state.multipliers - solved.state.multipliers).norm() < 1e-5 * solved.state.multipliers.norm());
+  CHECK(std::abs(jumps.segment<2>(1).dot(Eigen::Vector2d(0.6, 0.8))) > 0.1);
+}
+
 TEST_CASE("The condensed solution obeys the law of Coulomb") {
   Coupled scene(6, 0.4);
   const CondensedSolution solution = solve_condensed(scene.schur, scene.problem, scene.state);

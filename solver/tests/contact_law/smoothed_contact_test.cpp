@@ -68,6 +68,14 @@ TEST_CASE("Between nodes they end with the augmentations of the law") {
     check_solution(WithMiddle(0.3, augmentation), WithMiddle(0.3, augmentation));
 }
 
+TEST_CASE("So they do where some points have no friction along one direction, and share multipliers with others") {
+  for (const double augmentation : {0.05, 1.0, 20.0}) {
+    WithMiddle scene(0.3, augmentation);
+    for (const std::size_t p : {0U, 1U, 4U}) scene.problem.points[p].law.dead = Eigen::Vector2d(0.6, 0.8);
+    check_solution(scene, scene);
+  }
+}
+
 TEST_CASE("Shears alone may keep the augmentation of the bodies") {
   WithMiddle scene(0.3, 0.05), solved(0.3, 0.05);
   Eigen::VectorXd jumps = scene.problem.free;

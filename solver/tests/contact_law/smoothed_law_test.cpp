@@ -1,5 +1,7 @@
 #include "solver/contact_law/smoothed_law.hpp"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "solver/tests/contact_law/law_tangents.hpp"
@@ -45,6 +47,23 @@ TEST_CASE("Tangents of the smoothed law are its derivatives") {
               law.dead = Eigen::Vector2d(0.6, 0.8);
               check_tangents(value);
             }
+}
+
+TEST_CASE("Along a dead direction the smoothed law is that of a point without friction") {
+  const Vector3d multiplier(100.0, 7.0, 12.0), jump(-0.03, 0.02, 0.05);
+  for (const double share_pressure : {0.0, 80.0})
+    for (const bool on_node : {false, true}) {
+      ContactLaw law = frictional_law();
+      law.share_pressure = share_pressure;
+      const LawSmoothing smoothing{.pressure = 1.0, .law_share_along = 0.25, .rubs = true, .on_node = on_node};
+      law.dead = Eigen::Vector2d::UnitY();
+      const SmoothedLawValue value = SmoothedLaw(law, bodies, smoothing).at(multiplier, jump);
+      law.friction = 0.0;
+      const SmoothedLawValue smooth = SmoothedLaw(law, bodies, smoothing).at(multiplier, jump);
+      CHECK(value.traction[2] == 0.0);
+      CHECK(value.residual[2] == Approx(smooth.residual[2]).epsilon(1e-14));
+      CHECK(std::abs(value.traction[1]) > 1.0);
+    }
 }
 
 TEST_CASE("The less it is rounded off, the nearer the smoothed law is to that of its status") {
