@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <map>
 #include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "solver/elements/assembler_blocks.hpp"
 #include "solver/elements/block_fields.hpp"
 #include "solver/elements/discrete_forces.hpp"
 #include "solver/elements/element_block.hpp"
@@ -86,51 +86,10 @@ std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<in
   return make_slender_block(input, std::move(cells));
 }
 
-/// The names V1, V2 ... of internal variables.
 /// Of a solid; more of them are no stresses.
 constexpr std::size_t solid_stress_count = 6;
 
-/// Initial stresses agree with those of the displacements up to this share: both have been through fields and files.
-constexpr double initial_stress_tolerance = 1e-6;
-/// Of the largest of all: below, nothing is left of what cancels.
-constexpr double stress_rounding = 1e-12;
-
-std::vector<double> stresses_of(const ElementBlock& block, const Eigen::VectorXd& u, const VariableState& state,
-                                const ImposedStrains* imposed) {
-  std::vector<double> values(block.cells().size() * static_cast<std::size_t>(block.point_count()) *
-                             block.stress_names().size());
-  block.stresses(u, state, values);
-  if (imposed != nullptr && !imposed->empty()) block.subtract_imposed_stresses(*imposed, state, values);
-  return values;
-}
-
-Eigen::VectorXd rounded(const std::vector<long double>& sums) {
-  Eigen::VectorXd result(static_cast<Eigen::Index>(sums.size()));
-  std::transform(sums.begin(), sums.end(), result.data(), [](long double sum) { return static_cast<double>(sum); });
-  return result;
-}
-
 }  // namespace
-
-struct Assembler::Blocks {
-  using StiffnessTerm = void (ElementBlock::*)(const Eigen::VectorXd&, const VariableState&, std::span<const int>,
-                                               double*) const;
-  using ForceTerm = void (ElementBlock::*)(const Eigen::VectorXd&, const VariableState&, ForceSum) const;
-
-  SparsePattern pattern;
-  std::vector<std::unique_ptr<ElementBlock>> list;
-
-  SymmetricMatrix sum(StiffnessTerm add, const Eigen::VectorXd& u, const VariableState& state) const {
-    SymmetricMatrix matrix = pattern.zero_matrix();
-    for (const auto& block : list) ((*block).*add)(u, state, pattern.column_starts(), matrix.valuePtr());
-    return matrix;
-  }
-  Eigen::VectorXd sum(ForceTerm add, const Eigen::VectorXd& u, const VariableState& state) const {
-    std::vector<long double> sums(static_cast<std::size_t>(u.size()), 0.0L);
-    for (const auto& block : list) ((*block).*add)(u, state, sums);
-    return rounded(sums);
-  }
-};
 
 Assembler::Assembler(const Model& model, const MaterialField& materials, const ElementProperties& properties,
                      const DofMap& dofs, const BehaviourOfCells* behaviours)
@@ -228,19 +187,6 @@ Eigen::VectorXd Assembler::starting_forces(const Eigen::VectorXd& u) const {
   return with_initial(blocks_->sum(&ElementBlock::add_starting_forces, u, state_));
 }
 
-Eigen::VectorXd Assembler::with_initial(Eigen::VectorXd forces) const {
-  if (initial_forces_.size() > 0) forces += initial_forces_;
-  return forces;
-}
-
-std::vector<double> Assembler::stresses_in(const ElementBlock& block, const Eigen::VectorXd& u,
-                                           const ImposedStrains* imposed) const {
-  std::vector<double> values = stresses_of(block, u, state_, imposed);
-  for (const auto& [other, initial] : initial_stresses_)
-    if (other == &block) std::ranges::transform(values, initial, values.begin(), std::plus<>());
-  return values;
-}
-
 Eigen::VectorXd Assembler::variable_forces(const Eigen::VectorXd& u) const {
   return state_.empty() && !imposed_ ? Eigen::VectorXd() : blocks_->sum(&ElementBlock::add_variable_forces, u, state_);
 }
@@ -253,21 +199,6 @@ Eigen::VectorXd Assembler::residual_weights() const {
   return (weights.array() > 0.0).select(weights, 1.0);
 }
 
-Eigen::VectorXd Assembler::forces_of_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const {
-  std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
-  for (const auto& block : blocks_->list) {
-    if (block->has_memory()) {
-      block->add_forces_of_stresses(u, state_, read_stresses(*block, &stresses, *model_.mesh), sums);
-      continue;
-    }
-    block->add_internal_forces(u, state_, sums);
-    if (!block->takes_initial_stresses()) continue;
-    if (const std::vector<double> excess = excess_of(*block, u, stresses); !excess.empty())
-      block->add_forces_of_stresses(u, state_, excess, sums);
-  }
-  return rounded(sums);
-}
-
 bool Assembler::has_memory() const {
   return std::ranges::any_of(blocks_->list, [](const auto& block) { return block->has_memory(); });
 }
@@ -278,80 +209,6 @@ void Assembler::extrapolate(std::optional<double> ratio) {
 
 void Assembler::accept(const Eigen::VectorXd& u) {
   for (const auto& block : blocks_->list) block->accept(u, state_);
-}
-
-void Assembler::resume(const Eigen::VectorXd& u, const ElementField* stresses, const ElementField* variables) {
-  initial_stresses_.clear();
-  initial_forces_.resize(0);
-  for (const auto& block : blocks_->list) {
-    if (!block->has_memory()) {
-      if (stresses != nullptr) take_initial_stresses(*block, u, *stresses);
-      continue;
-    }
-    block->resume(u, state_, read_stresses(*block, stresses, *model_.mesh),
-                  read_block(*block, variable_names(block->variable_count()), variables, *model_.mesh));
-  }
-  if (initial_stresses_.empty()) return;
-  std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
-  for (const auto& [block, values] : initial_stresses_) block->add_forces_of_stresses(u, state_, values, sums);
-  initial_forces_ = rounded(sums);
-}
-
-// What the field has beyond the stresses of the displacements; empty where that is nothing.
-std::vector<double> Assembler::excess_of(const ElementBlock& block, const Eigen::VectorXd& u,
-                                         const ElementField& given) const {
-  const bool has_forces = block.force_point_count(PlatePlaces::corners) > 0;
-  const ElementField of_plates =
-      has_forces ? plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, imposed_.get()))
-                 : ElementField();
-  std::vector<double> excess = has_forces ? values_on(block.cells(), of_plates, given, *model_.mesh)
-                                          : read_stresses(block, &given, *model_.mesh);
-  const std::vector<double> known = has_forces ? values_on(block.cells(), of_plates, of_plates, *model_.mesh)
-                                               : stresses_of(block, u, state_, imposed_.get());
-  // Forces and moments have units of their own.
-  const std::vector<std::string> names = has_forces ? of_plates.components : stress_names(block);
-  const auto is_moment = [&](std::size_t k) { return names[k % names.size()].starts_with('M') ? 1 : 0; };
-  std::array<double, 2> largest = {0.0, 0.0};
-  for (std::size_t k = 0; k < known.size(); ++k)
-    largest[is_moment(k)] = std::max(largest[is_moment(k)], std::abs(known[k]));
-  const double rounding = stress_rounding * std::max(largest[0], largest[1]);
-  bool is_all = true;
-  for (std::size_t k = 0; k < known.size(); ++k) {
-    const double difference = excess[k] - known[k];
-    const bool is_rounding =
-        std::abs(difference) <=
-        std::max(rounding, initial_stress_tolerance * std::max(largest[is_moment(k)], std::abs(excess[k])));
-    excess[k] = is_rounding ? 0.0 : difference;
-    is_all = is_all && is_rounding;
-  }
-  return is_all ? std::vector<double>() : excess;
-}
-
-void Assembler::take_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) {
-  std::vector<double> excess = excess_of(block, u, given);
-  if (excess.empty()) return;
-  if (!block.takes_initial_stresses()) {
-    const std::size_t each = excess.size() / block.cells().size();
-    const auto first = static_cast<std::size_t>(
-        std::ranges::find_if(excess, [](double value) { return value != 0.0; }) - excess.begin());
-    throw Error("unsupported",
-                fmt::format("the initial stress of cell {} is not that of its initial displacements",
-                            model_.mesh->cell_name(block.cells()[first / each])),
-                "only isotropic continua in small or logarithmic strains, and bars and beams in small displacements, "
-                "take up stresses of another origin");
-  }
-  initial_stresses_.emplace_back(&block, std::move(excess));
-}
-
-bool Assembler::takes_initial_stresses() const {
-  return std::ranges::any_of(blocks_->list,
-                             [](const auto& block) { return block->takes_initial_stresses() && !block->has_memory(); });
-}
-
-bool Assembler::has_initial_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const {
-  return std::ranges::any_of(blocks_->list, [&](const auto& block) {
-    return block->takes_initial_stresses() && !block->has_memory() && !excess_of(*block, u, stresses).empty();
-  });
 }
 
 ElementField Assembler::internal_variables(const Eigen::VectorXd& u) const {
