@@ -296,8 +296,8 @@ ElementField Assembler::stresses(const Eigen::VectorXd& u, const ImposedStrains*
   for (const auto& block : blocks_->list)
     write_block(*block, stress_names(*block), stresses_in(*block, u, imposed), field);
   if (!has_plates()) return field;
-  return side_by_side(field,
-                      plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, imposed)));
+  const ElementField forces = with_initial(plate_forces(u, PlatePlaces::integration_points, imposed));
+  return side_by_side(field, plate_stresses(model_, properties_, forces));
 }
 
 bool Assembler::has_plates() const {

@@ -81,14 +81,14 @@ class Assembler {
   /// stresses times volumes (the swelling's). Empty where all are forces.
   Eigen::VectorXd residual_weights() const;
 
-  /// Whether there are elements without a memory that may have stresses beside those of their displacements: bars and
-  /// beams.
+  /// Whether there are elements without a memory that may have stresses beside those of their displacements: springs,
+  /// bars, beams and plates.
   bool takes_initial_stresses() const;
   /// Whether they have some in the field.
   bool has_initial_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const;
 
   /// The internal forces (n) of a field of stresses as stresses() gives it. Where materials have no memory, those of u,
-  /// with what bars and beams have besides.
+  /// with what springs, bars, beams and plates have besides.
   Eigen::VectorXd forces_of_stresses(const Eigen::VectorXd& u, const ElementField& stresses) const;
 
   /// Whether stresses depend on more than the displacements of the moment: then stiffness(), internal_forces() and the
@@ -102,8 +102,9 @@ class Assembler {
   void accept(const Eigen::VectorXd& u);
   /// A step begins at u, at the assembler's instant. `stresses`, `variables`: as stresses() and internal_variables()
   /// give them; null: zero. Throws Error `incompatible-field` where a field lacks a cell, a point or a component;
-  /// `unsupported` for stresses that an element without memory does not have at u, but for bars and beams: what they
-  /// have besides stays, in internal_forces() and stresses().
+  /// `unsupported` for stresses that an element without memory does not have at u, but for springs, bars, beams and
+  /// plates: what they have besides stays, in internal_forces() and stresses(). Plates must have such stresses through
+  /// their thickness as forces make. What holds rotations about the normal of plates is in no stress: it is that of u.
   void resume(const Eigen::VectorXd& u, const ElementField* stresses, const ElementField* variables);
   /// VARI_ELGA: internal variables V1, V2 ... at the Gauss points (U4.51.11); cells with fewer have none in the other
   /// components.
@@ -148,9 +149,13 @@ class Assembler {
   ElementField stresses(const Eigen::VectorXd& u, std::span<const AppliedLoad> loads, double time) const;
 
   /// The forces NXX NYY NXY MXX MYY MXY QX QY of plates, a length, in own axes, moments about the surface of the mesh,
-  /// less those of the initial strains that the loads impose at a time; other cells have none.
+  /// less those of the initial strains that the loads impose at a time; other cells have none. Those of u alone,
+  /// whatever the step began with.
   ElementField plate_forces(const Eigen::VectorXd& u, PlatePlaces places, std::span<const AppliedLoad> loads,
                             double time) const;
+
+  /// What they have in a field of stresses beside those of u, at the points of integration; nothing where that is all.
+  std::optional<ElementField> plate_forces_beside(const Eigen::VectorXd& u, const ElementField& stresses) const;
 
   /// Elastic energy of each element without memory (EPOT_ELEM: TOTALE, and its parts in beams and plates,
   /// energy_parts.hpp), that of (strain - strain of the command variables - what impose_strains() has given).
@@ -162,9 +167,12 @@ class Assembler {
   ElementField plate_forces(const Eigen::VectorXd& u, PlatePlaces places, const ImposedStrains* imposed) const;
   bool has_plates() const;
   Eigen::VectorXd with_initial(Eigen::VectorXd forces) const;
+  ElementField with_initial(ElementField plate_forces) const;
   std::vector<double> stresses_in(const ElementBlock& block, const Eigen::VectorXd& u,
                                   const ImposedStrains* imposed) const;
   std::vector<double> excess_of(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) const;
+  std::vector<double> excess_of_plates(const ElementBlock& block, const Eigen::VectorXd& u,
+                                       const ElementField& given) const;
   void add_initial_stress_forces(std::span<const AppliedLoad> loads, double time, std::span<long double> sums) const;
   void take_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given);
   ElementField field_at_points(std::string quantity, std::vector<std::string> components) const;
@@ -177,7 +185,7 @@ class Assembler {
   std::unique_ptr<Blocks> blocks_;
   VariableState state_;
   std::unique_ptr<const ImposedStrains> imposed_;  ///< null: none
-  /// That elements without a memory have beside those of their displacements.
+  /// That elements without a memory have beside those of their displacements; forces of plates.
   std::vector<std::pair<const ElementBlock*, std::vector<double>>> initial_stresses_;
   Eigen::VectorXd initial_forces_;  ///< of these; empty: none
   int version_ = 0;

@@ -61,6 +61,30 @@ class DiscreteBlock final : public DiscreteElements {
     }
   }
 
+  bool takes_initial_stresses() const override { return true; }
+  /// Forces at one end or both: see stresses().
+  void add_forces_of_stresses(const Eigen::VectorXd&, const VariableState&, std::span<const double> stresses,
+                              ForceSum forces) const override {
+    const int k = map_.components();
+    const bool pulls_back = static_cast<int>(ends_.size()) < node_count_;
+    std::array<int, max_size> dofs;
+    const double* own = stresses.data();
+    for (int element = 0; element < map_.element_count(); ++element) {
+      map_.dofs(element, dofs.data());
+      const Eigen::Matrix3d back = stiffnesses_[element]->axes.transpose();
+      for (const int end : ends_) {
+        const double sign = end == node_count_ - 1 ? 1.0 : -1.0;
+        std::array<double, component_count> force{};
+        turn(own, back, force.data());
+        for (int i = 0; i < k; ++i) {
+          forces[dofs[end * k + i]] += sign * force[i];
+          if (pulls_back) forces[dofs[i]] -= force[i];
+        }
+        own += k;
+      }
+    }
+  }
+
   int point_count() const override { return static_cast<int>(ends_.size()); }
 
   /// The force of the part beyond the last node upon the element, in the element's own axes: N > 0 in tension. Where
@@ -79,9 +103,7 @@ class DiscreteBlock final : public DiscreteElements {
           for (int j = 0; j < stiffness.matrix.cols(); ++j)
             force[i] += sign * stiffness.matrix(end * k + i, j) * u[dofs[j]];
         }
-        to_local(force.data(), stiffness.axes, translations_, target);
-        if (k == 6) to_local(force.data() + 3, stiffness.axes, 3, target + 3);
-        if (formulation_ == Formulation::spring_rotation_2d) target[2] = force[2];
+        turn(force.data(), stiffness.axes, target);
         target += k;
       }
     }
@@ -113,10 +135,16 @@ class DiscreteBlock final : public DiscreteElements {
     return is_rounding(k.topRows(half) + k.bottomRows(half), k);
   }
 
-  static void to_local(const double* global, const Eigen::Matrix3d& axes, int dimension, double* local) {
+  /// The components at a node in other axes, the rows of `axes`.
+  void turn(const double* from, const Eigen::Matrix3d& axes, double* to) const {
+    turn(from, axes, translations_, to);
+    if (formulation_ == Formulation::spring_rotation_2d) to[2] = from[2];
+    if (map_.components() == 6) turn(from + 3, axes, 3, to + 3);
+  }
+  static void turn(const double* from, const Eigen::Matrix3d& axes, int dimension, double* to) {
     for (int i = 0; i < dimension; ++i) {
-      local[i] = 0.0;
-      for (int j = 0; j < dimension; ++j) local[i] += axes(i, j) * global[j];
+      to[i] = 0.0;
+      for (int j = 0; j < dimension; ++j) to[i] += axes(i, j) * from[j];
     }
   }
 

@@ -65,9 +65,9 @@ class ElementBlock {
                                        std::span<const int> column_starts, double* values) const;
   /// By what the rows that are no forces are multiplied to be of the size of forces; other rows are left alone.
   virtual void weigh_rows(const VariableState&, std::span<double>) const {}
-  /// The internal forces of known stresses, laid out as in stresses(); those of u alone where the material has no
-  /// memory. In plane stress with large strains they are on the initial thickness, as Code_Aster has FORC_NODA, so that
-  /// they miss balance by the change of thickness.
+  /// The internal forces of known stresses, laid out as in stresses(), of plates as in forces() at the points of
+  /// integration; those of u alone where the material has no memory. In plane stress with large strains they are on the
+  /// initial thickness, as Code_Aster has FORC_NODA, so that they miss balance by the change of thickness.
   virtual void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double>,
                                       ForceSum forces) const {
     add_internal_forces(u, state, forces);

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,6 +21,23 @@ namespace {
 constexpr double initial_stress_tolerance = 1e-6;
 /// Of the largest of all: below, nothing is left of what cancels.
 constexpr double stress_rounding = 1e-12;
+
+/// `largest`: of the known ones of its kind; `least`: what all rounding is below.
+bool is_rounding(double found, double known, double largest, double least) {
+  return std::abs(found - known) <= std::max(least, initial_stress_tolerance * std::max(largest, std::abs(found)));
+}
+
+bool is_of_plates(const ElementBlock& block) { return block.force_point_count(PlatePlaces::corners) > 0; }
+
+/// Values of some cells, one after the other, to those of a field that has as many there.
+void add_on_cells(std::span<const int> cells, const std::vector<double>& values, ElementField& field) {
+  const double* value = values.data();
+  const std::size_t width = field.components.size();
+  for (const int cell : cells)
+    for (std::size_t k = static_cast<std::size_t>(field.starts[cell]) * width;
+         k < static_cast<std::size_t>(field.starts[cell + 1]) * width; ++k)
+      field.values[k] += *value++;
+}
 
 }  // namespace
 
@@ -68,19 +86,15 @@ void Assembler::resume(const Eigen::VectorXd& u, const ElementField* stresses, c
   initial_forces_ = rounded(sums);
 }
 
-// What the field has beyond the stresses of the displacements; empty where that is nothing.
+// What the field has beyond the stresses of the displacements, of plates beyond their forces; empty where that is
+// nothing.
 std::vector<double> Assembler::excess_of(const ElementBlock& block, const Eigen::VectorXd& u,
                                          const ElementField& given) const {
-  const bool has_forces = block.force_point_count(PlatePlaces::corners) > 0;
-  const ElementField of_plates =
-      has_forces ? plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, imposed_.get()))
-                 : ElementField();
-  std::vector<double> excess = has_forces ? values_on(block.cells(), of_plates, given, *model_.mesh)
-                                          : read_stresses(block, &given, *model_.mesh);
-  const std::vector<double> known = has_forces ? values_on(block.cells(), of_plates, of_plates, *model_.mesh)
-                                               : stresses_of(block, u, state_, imposed_.get());
+  if (is_of_plates(block)) return excess_of_plates(block, u, given);
+  std::vector<double> excess = read_stresses(block, &given, *model_.mesh);
+  const std::vector<double> known = stresses_of(block, u, state_, imposed_.get());
   // Forces and moments have units of their own.
-  const std::vector<std::string> names = has_forces ? of_plates.components : stress_names(block);
+  const auto names = block.stress_names();
   const auto is_moment = [&](std::size_t k) { return names[k % names.size()].starts_with('M') ? 1 : 0; };
   std::array<double, 2> largest = {0.0, 0.0};
   for (std::size_t k = 0; k < known.size(); ++k)
@@ -88,14 +102,44 @@ std::vector<double> Assembler::excess_of(const ElementBlock& block, const Eigen:
   const double rounding = stress_rounding * std::max(largest[0], largest[1]);
   bool is_all = true;
   for (std::size_t k = 0; k < known.size(); ++k) {
-    const double difference = excess[k] - known[k];
-    const bool is_rounding =
-        std::abs(difference) <=
-        std::max(rounding, initial_stress_tolerance * std::max(largest[is_moment(k)], std::abs(excess[k])));
-    excess[k] = is_rounding ? 0.0 : difference;
-    is_all = is_all && is_rounding;
+    const bool is_same = is_rounding(excess[k], known[k], largest[is_moment(k)], rounding);
+    excess[k] = is_same ? 0.0 : excess[k] - known[k];
+    is_all = is_all && is_same;
   }
   return is_all ? std::vector<double>() : excess;
+}
+
+// By stresses, as fields have them: what a small force is beside a large moment follows from the thickness.
+std::vector<double> Assembler::excess_of_plates(const ElementBlock& block, const Eigen::VectorXd& u,
+                                                const ElementField& given) const {
+  const ElementField field =
+      plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, imposed_.get()));
+  const std::vector<double> found = values_on(block.cells(), field, given, *model_.mesh);
+  const std::vector<double> known = values_on(block.cells(), field, field, *model_.mesh);
+  double largest = 0.0;
+  for (const double value : known) largest = std::max(largest, std::abs(value));
+  bool is_all = true;
+  for (std::size_t k = 0; k < known.size(); ++k)
+    is_all = is_all && is_rounding(found[k], known[k], largest, stress_rounding * largest);
+  if (is_all) return {};
+  std::vector<double> excess;
+  std::size_t begin = 0;
+  for (const int cell : block.cells()) {
+    const PlateSection& section = properties_.plates.at(cell);
+    const auto each = static_cast<std::size_t>(field.values_a_point(cell)) * field.components.size();
+    for (int point = 0; point < block.force_point_count(PlatePlaces::integration_points); ++point, begin += each) {
+      const auto forces = forces_of_plate_stresses(section, std::span(found).subspan(begin, each));
+      if (!forces)
+        throw Error("unsupported",
+                    fmt::format("the initial stresses of plate {} are not those of an elastic plate",
+                                model_.mesh->cell_name(cell)),
+                    "give SIXX, SIYY and SIXY that are linear through the thickness, SIXZ and SIYZ as a parabola that "
+                    "vanishes on both faces, and SIZZ = 0, as SIEF_ELGA has them");
+      const PlateForces beside = *forces - *forces_of_plate_stresses(section, std::span(known).subspan(begin, each));
+      excess.insert(excess.end(), beside.begin(), beside.end());
+    }
+  }
+  return excess;
 }
 
 void Assembler::take_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given) {
@@ -108,10 +152,33 @@ void Assembler::take_initial_stresses(const ElementBlock& block, const Eigen::Ve
     throw Error("unsupported",
                 fmt::format("the initial stress of cell {} is not that of its initial displacements",
                             model_.mesh->cell_name(block.cells()[first / each])),
-                "only isotropic continua in small or logarithmic strains, and bars and beams in small displacements, "
-                "take up stresses of another origin");
+                "only isotropic continua in small or logarithmic strains, and springs, bars, beams and plates in small "
+                "displacements, take up stresses of another origin");
   }
   initial_stresses_.emplace_back(&block, std::move(excess));
+}
+
+ElementField Assembler::with_initial(ElementField plate_forces) const {
+  for (const auto& [block, values] : initial_stresses_)
+    if (is_of_plates(*block)) add_on_cells(block->cells(), values, plate_forces);
+  return plate_forces;
+}
+
+std::optional<ElementField> Assembler::plate_forces_beside(const Eigen::VectorXd& u,
+                                                           const ElementField& stresses) const {
+  std::optional<ElementField> beside;
+  for (const auto& block : blocks_->list) {
+    if (!is_of_plates(*block)) continue;
+    const std::vector<double> excess = excess_of(*block, u, stresses);
+    if (excess.empty()) continue;
+    if (!beside) {
+      beside = plate_forces(u, PlatePlaces::integration_points, nullptr);
+      std::ranges::replace_if(
+          beside->values, [](double value) { return !std::isnan(value); }, 0.0);
+    }
+    add_on_cells(block->cells(), excess, *beside);
+  }
+  return beside;
 }
 
 bool Assembler::takes_initial_stresses() const {

@@ -211,10 +211,8 @@ class PlateBlock final : public ElementBlock {
 
   void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state,
                                  ForceSum forces) const override {
-    std::array<int, size> dofs;
     for (int element = 0; element < map_.element_count(); ++element) {
       if (!imposed.acts_on(cells_[element])) continue;
-      map_.dofs(element, dofs.data());
       const PlateRigidity rigidity = this->rigidity(element, state);
       const PlateKinematics<Nodes> kinematics(plates_[element].corners, rigidity);
       Vector push = Vector::Zero();
@@ -224,13 +222,41 @@ class PlateBlock final : public ElementBlock {
         push += point.weight * rows.measure *
                 (rows.membrane.transpose() * resultants.normal + rows.curvature.transpose() * resultants.moment);
       }
-      for (int i = 0; i < size; i += 3)
-        push.template segment<3>(i) = (plates_[element].axes.transpose() * push.template segment<3>(i)).eval();
-      for (int i = 0; i < size; ++i) forces[dofs[i]] += push[i];
+      add_own_forces(element, push, forces);
+    }
+  }
+
+  bool takes_initial_stresses() const override { return true; }
+  void add_forces_of_stresses(const Eigen::VectorXd&, const VariableState& state, std::span<const double> stresses,
+                              ForceSum forces) const override {
+    const double* own = stresses.data();
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const PlateRigidity rigidity = this->rigidity(element, state);
+      const PlateKinematics<Nodes> kinematics(plates_[element].corners, rigidity);
+      Vector pull = Vector::Zero();
+      for (const QuadraturePoint& point : points_) {
+        const PlateRows<Nodes> rows = kinematics.at(point.at);
+        const Eigen::Map<const Eigen::Matrix<double, 8, 1>> given(own);
+        pull += point.weight * rows.measure *
+                (rows.membrane.transpose() * given.head<3>() + rows.curvature.transpose() * given.segment<3>(3) +
+                 rigidity.shear_compliance * rows.shear_force.transpose() * given.tail<2>());
+        own += given.size();
+      }
+      add_own_forces(element, pull, forces);
     }
   }
 
  private:
+  /// Forces on the nodes, given in the plate's own axes.
+  void add_own_forces(int element, const Vector& own, ForceSum forces) const {
+    std::array<int, size> dofs;
+    map_.dofs(element, dofs.data());
+    for (int i = 0; i < size; i += 3) {
+      const Eigen::Vector3d global = plates_[element].axes.transpose() * own.template segment<3>(i);
+      for (int j = 0; j < 3; ++j) forces[dofs[i + j]] += global[j];
+    }
+  }
+
   /// Forces and moments per length at places of the reference cell, about the surface of the mesh, in the plate's own
   /// axes.
   void forces_at(std::span<const ReferencePoint> places, const Eigen::VectorXd& u, const VariableState& state,

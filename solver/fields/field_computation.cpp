@@ -230,7 +230,7 @@ const Field& FieldComputation::remembered(std::string_view name, std::size_t ste
 }
 
 const ElementField* FieldComputation::remembered_stresses(std::size_t step) const {
-  const bool is_held = assembler_.takes_initial_stresses() && result_.steps[step].fields.contains("SIEF_ELGA");
+  const bool is_held = assembler_.takes_initial_stresses() && holds_whole("SIEF_ELGA", step);
   return is_held || assembler_.has_memory() || began_with_stresses()
              ? &std::get<ElementField>(remembered("SIEF_ELGA", step))
              : nullptr;
@@ -240,12 +240,13 @@ bool FieldComputation::began_with_stresses() const {
   return assembler_.takes_initial_stresses() && problem_.initial && problem_.initial->stresses;
 }
 
-// What bars and beams have beside the stresses of their displacements is in no energy, nor in the strains that follow
-// from forces.
+// What springs, bars, beams and plates have beside the stresses of their displacements is in no energy, nor in the
+// strains that follow from forces.
 void FieldComputation::require_no_initial_stresses(std::string_view name, std::size_t step) {
   const ElementField* known = remembered_stresses(step);
   if (known == nullptr || !assembler_.has_initial_stresses(to_dofs(displacement(step), dofs_), *known)) return;
-  throw Error("unsupported", fmt::format("{} of bars and beams is not known beside initial stresses", name),
+  throw Error("unsupported",
+              fmt::format("{} of springs, bars, beams and plates is not known beside initial stresses", name),
               "begin without SIGM in ETAT_INIT, or take fields of forces (EFGE_ELNO)");
 }
 

@@ -90,6 +90,8 @@ class FieldComputation {
   bool has_plates() const;
   const ElementField& stresses_beside_plates(std::size_t step);
   ElementField plate_forces(std::size_t step);
+  std::optional<ElementField> plate_forces_beside(std::size_t step);
+  ElementField plate_forces_at_nodes(std::size_t step);
   ElementField whole_plate_forces(std::size_t step);
   ElementField layer_strains_of(const ElementField& plate_forces) const;
   /// Stresses and forces of elements at their nodes, with the forces of plates at their corners.

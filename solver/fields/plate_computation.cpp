@@ -1,6 +1,8 @@
 // The part of FieldComputation that computes what plates have beside the fields of other elements.
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <optional>
 #include <ranges>
 
 #include "solver/fields/extrapolation.hpp"
@@ -55,10 +57,16 @@ const ElementField& FieldComputation::stresses_beside_plates(std::size_t step) {
 ElementField FieldComputation::forces_at_nodes(std::size_t step) {
   const ElementField others = to_element_nodes(*problem_.model, stresses_beside_plates(step));
   if (!has_plates()) return others;
-  ElementField of_plates = assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::corners,
-                                                   problem_.loads, result_.steps[step].instant);
-  of_plates.support = Support::element_node;
-  return side_by_side(others, of_plates);
+  return side_by_side(others, plate_forces_at_nodes(step));
+}
+
+// What plates have beside the forces of their displacements is known at the points of integration alone.
+ElementField FieldComputation::plate_forces_at_nodes(std::size_t step) {
+  if (plate_forces_beside(step)) return to_element_nodes(*problem_.model, plate_forces(step));
+  ElementField forces = assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::corners,
+                                                problem_.loads, result_.steps[step].instant);
+  forces.support = Support::element_node;
+  return forces;
 }
 
 Field FieldComputation::stress_field_at_nodes(std::size_t step) {
@@ -77,8 +85,18 @@ ElementField FieldComputation::plate_stresses_at_nodes(std::size_t step) {
 }
 
 ElementField FieldComputation::plate_forces(std::size_t step) {
-  return assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::integration_points, problem_.loads,
-                                 result_.steps[step].instant);
+  ElementField forces = assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::integration_points,
+                                                problem_.loads, result_.steps[step].instant);
+  if (const auto beside = plate_forces_beside(step))
+    std::ranges::transform(forces.values, beside->values, forces.values.begin(), std::plus<>());
+  return forces;
+}
+
+// What plates have kept of a state that they began with, beside the forces of their displacements.
+std::optional<ElementField> FieldComputation::plate_forces_beside(std::size_t step) {
+  if (!holds_whole("SIEF_ELGA", step) && !began_with_stresses()) return std::nullopt;
+  return assembler_.plate_forces_beside(to_dofs(displacement(step), dofs_),
+                                        std::get<ElementField>(remembered("SIEF_ELGA", step)));
 }
 
 // With what initial strains (PRE_EPSI) take off: those that belong to the whole strain.

@@ -18,6 +18,11 @@ namespace {
 
 constexpr int places_a_layer = 3;
 
+/// Where a place lies, as a share of half the thickness: -1 below, 1 above.
+double share_of(int place, const PlateSection& section) {
+  return (2.0 * (place / places_a_layer) + place % places_a_layer) / section.layers - 1.0;
+}
+
 /// At a share of half the thickness (-1 below, 1 above) over the middle of the plate.
 std::array<double, 6> stress_at(double share, const PlateSection& section, const PlateForces& forces) {
   const double h = section.thickness;
@@ -56,8 +61,7 @@ ElementField in_layers(const Model& model, const ElementProperties& properties, 
     for (int point = 0; point < source.points(cell); ++point) {
       const PlateForces values = read(cell, point);
       for (int place = 0; place < places; ++place) {
-        const int layer = place / places_a_layer, half = place % places_a_layer;
-        const auto tensor = value_at((2.0 * layer + half) / section.layers - 1.0, section, values);
+        const auto tensor = value_at(share_of(place, section), section, values);
         field.values.insert(field.values.end(), tensor.begin(), tensor.end());
       }
     }
@@ -74,6 +78,32 @@ ElementField plate_stresses(const Model& model, const ElementProperties& propert
   return in_layers(
       model, properties, forces, "SIEF_R", solid_stress_names,
       [&](int cell, int point) { return reader.at(cell, point); }, stress_at);
+}
+
+// Simpson's rule in each layer, exact for cubics.
+std::optional<PlateForces> forces_of_plate_stresses(const PlateSection& section, std::span<const double> stresses) {
+  using Stress = Eigen::Map<const Eigen::Matrix<double, 6, 1>>;
+  constexpr double same = 1e-6;
+  const auto at = [&](int place) { return Stress(stresses.data() + 6 * place); };
+  const int places = places_a_layer * section.layers;
+  PlateForces forces = PlateForces::Zero();
+  double largest = 0.0;
+  for (int place = 0; place < places; ++place) {
+    const Stress stress = at(place);
+    const double height = 0.5 * share_of(place, section) * section.thickness + section.offset;
+    const double weight = (place % places_a_layer == 1 ? 4.0 : 1.0) / 6.0 * section.thickness / section.layers;
+    const Eigen::Vector3d plane(stress[0], stress[1], stress[3]);
+    forces.head<3>() += weight * plane;
+    forces.segment<3>(3) += weight * height * plane;
+    forces.tail<2>() += weight * stress.tail<2>();
+    largest = std::max(largest, stress.lpNorm<Eigen::Infinity>());
+  }
+  for (int place = 0; place < places; ++place) {
+    const auto made = stress_at(share_of(place, section), section, forces);
+    // Written so that what is not a number is no stress.
+    if (!((at(place) - Stress(made.data())).lpNorm<Eigen::Infinity>() <= same * largest)) return std::nullopt;
+  }
+  return forces;
 }
 
 ElementField plate_layer_strains(const Model& model, const ElementProperties& properties, const ElementField& strains) {

@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 
 #include "solver/elements/section.hpp"
 #include "solver/fields/field.hpp"
+#include "solver/fields/plate_forces.hpp"
 
 namespace comma::solver {
 
@@ -14,6 +17,10 @@ namespace comma::solver {
 /// Linear through the thickness, SIZZ zero, the transverse shears a parabola that vanishes on both faces (R3.07.03).
 /// Throws Error `unknown-component`, `missing-properties`.
 ElementField plate_stresses(const Model& model, const ElementProperties& properties, const ElementField& forces);
+
+/// The way back at one point: NXX ... QY out of the stresses at all places in the thickness, one after the other.
+/// Nothing where these are not what any forces make of them, to six digits of the largest.
+std::optional<PlateForces> forces_of_plate_stresses(const PlateSection& section, std::span<const double> stresses);
 
 /// EPXX EPYY EPZZ EPXY EPXZ EPYZ at the same places out of EXX ... GAY (plate_strains(), about the surface of the
 /// mesh): linear through the thickness, EPXZ and EPYZ half of GAX and GAY all through it, EPZZ zero, for the theory of

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <span>
+#include <tuple>
 
 #include <catch2/catch.hpp>
 
@@ -180,6 +182,43 @@ TEST_CASE("a model of symmetric elements has no skew part", "[elements]") {
       spring(segment({0, 0, 0}, {1, 0, 0}), Formulation::spring_2d, std::array{10.0, 3.0}, DiscreteFrame::local);
   CHECK(body.assembler->is_symmetric());
   CHECK(body.assembler->skew_stiffness(Eigen::VectorXd::Zero(4)).nonZeros() == 0);
+}
+
+TEST_CASE("springs that go on softer keep the forces that they had, and have new ones for what moves from there",
+          "[elements]") {
+  const auto slope = segment({1, 1, 0}, {4, 5, 0});
+  auto point = std::make_shared<Mesh>();
+  point->nodes = {{0, 0, 0}};
+  point->add_cell(CellType::poi1, std::array{0});
+  std::vector<double> uneven(16);  // forces at both ends are not alike
+  for (std::size_t i = 0; i < uneven.size(); ++i) uneven[i] = std::sin(3.0 * static_cast<double>(i));
+  const std::array values = {11.0, 12.0, 13.0, 14.0, 15.0, 16.0};
+  const std::span first(values);
+  using F = Formulation;
+  constexpr auto local = DiscreteFrame::local;
+  const std::vector<std::tuple<std::shared_ptr<Mesh>, F, DiscreteStiffness>> springs = {
+      {slope, F::spring_2d, diagonal_stiffness(*slope, 0, F::spring_2d, first.first(2), local)},
+      {slope, F::spring_rotation_2d, diagonal_stiffness(*slope, 0, F::spring_rotation_2d, first.first(3), local)},
+      {slope, F::spring_3d, diagonal_stiffness(*slope, 0, F::spring_3d, first.first(3), local)},
+      {slope, F::spring_rotation_3d, diagonal_stiffness(*slope, 0, F::spring_rotation_3d, first, local)},
+      {point, F::spring_rotation_3d, diagonal_stiffness(*point, 0, F::spring_rotation_3d, first, local)},
+      {slope, F::spring_2d, unsymmetric_stiffness(*slope, 0, F::spring_2d, uneven, local)}};
+  for (const auto& [mesh, formulation, stiff] : springs) {
+    ElementProperties before, after;
+    before.discrete[0] = after.discrete[0] = stiff;
+    after.discrete[0].matrix *= 0.25;
+    const Body hard(mesh, {formulation}, nullptr, before);
+    const Body soft(mesh, {formulation}, nullptr, after);
+    Eigen::VectorXd u = hard.zero();
+    for (Eigen::Index i = 0; i < u.size(); ++i) u[i] = std::cos(2.0 * static_cast<double>(i));
+    const Eigen::VectorXd forces = hard.assembler->internal_forces(u);
+    const ElementField stresses = hard.assembler->stresses(u);
+    soft.assembler->resume(u, &stresses, nullptr);
+    CHECK((soft.assembler->internal_forces(u) - forces).norm() < 1e-14 * forces.norm());
+    CHECK((soft.assembler->internal_forces(3.0 * u) - 1.5 * forces).norm() < 1e-14 * forces.norm());
+    const std::vector<double> kept = soft.assembler->stresses(u).values;
+    for (std::size_t k = 0; k < kept.size(); ++k) CHECK(kept[k] == Approx(stresses.values[k]).margin(1e-12));
+  }
 }
 
 }  // namespace discrete_test

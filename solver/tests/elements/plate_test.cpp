@@ -392,4 +392,33 @@ TEST_CASE("a normal rotation that is tied does not follow the parasitic spin of 
   CHECK(std::abs(tie_energy(bent)) < 1e-12 * 1e-3 * young * 0.1);
 }
 
+TEST_CASE("plates that go on softer keep the stresses that they had", "[plate]") {
+  const Place place = tilted();
+  for (const Formulation formulation : both) {
+    for (const CellType type : cells) {
+      const auto mesh = rectangle(type, 2.0, 1.0, 2, 2, 0.1, place);
+      const PlateSection section{.thickness = 0.1, .offset = 0.02, .layers = 2, .drilling = 0.0};
+      const Body hard = plate(mesh, formulation, section);
+      const Body soft(mesh, std::vector<Formulation>(mesh->cell_types.size(), formulation),
+                      elastic(0.25 * young, poisson), hard.properties);
+      Eigen::VectorXd u = hard.zero();
+      for (Eigen::Index i = 0; i < u.size(); ++i) u[i] = 1e-3 * std::cos(2.0 * static_cast<double>(i));
+      const Eigen::VectorXd forces = hard.assembler->internal_forces(u);
+      ElementField stresses = hard.assembler->stresses(u);
+      soft.assembler->resume(u, &stresses, nullptr);
+      CHECK((soft.assembler->internal_forces(u) - forces).norm() < 1e-12 * forces.norm());
+      CHECK((soft.assembler->internal_forces(3.0 * u) - 1.5 * forces).norm() < 1e-12 * forces.norm());
+      const Eigen::Map<const Eigen::VectorXd> given(stresses.values.data(),
+                                                    static_cast<Eigen::Index>(stresses.values.size()));
+      const ElementField kept = soft.assembler->stresses(u);
+      CHECK((Eigen::Map<const Eigen::VectorXd>(kept.values.data(), given.size()) - given).norm() <
+            1e-12 * given.norm());
+      // No forces have a stress at one place of the thickness alone.
+      stresses.values.assign(stresses.values.size(), 0.0);
+      stresses.values.front() = 1e9;
+      CHECK_THROWS_WITH(soft.assembler->resume(u, &stresses, nullptr), Catch::Contains("elastic plate"));
+    }
+  }
+}
+
 }  // namespace plate_test
