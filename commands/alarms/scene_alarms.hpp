@@ -24,13 +24,8 @@ void warn_of_missing_masses(const interpreter::Call& call, const solver::StaticP
 void warn_of_loads_at_the_start(const interpreter::Call& call, const solver::StaticProblem& problem, double instant,
                                 Context& context);
 
-/// The same as warn_of_scene(), and of STAT_NON_LINE: `strained-start` (command variables strain the body at
-/// `first_instant` already, without an initial state), `no-behaviour` (cells that COMPORTEMENT leaves out),
-/// `initial-strains` (PRE_EPSI of materials that remember), and of what ETAT_INIT lacks `no-initial-field`,
-/// `partial-state`, `forgotten-flow`, `no-internal-variables`, `released-points` (a contact with GLISSIERE goes on from
-/// fields), `other-variables` (a cell goes on with a law of other internal variables), `odd-variables` (more of them
-/// than the law has, or a cumulated plastic strain below zero). `before`: the laws of the initial state; null:
-/// elasticity, or not known.
+/// The same as warn_of_scene(), and of STAT_NON_LINE: `no-behaviour` (cells that COMPORTEMENT leaves out), and what
+/// warn_of_start() tells.
 void warn_of_nonlinear_scene(const interpreter::Call& call, const solver::StaticProblem& problem, double first_instant,
                              const solver::BehaviourOfCells* before, Context& context);
 
