@@ -346,8 +346,8 @@ Product stat_non_line(const Call& call, Context& context) {
   if (call.has("CONVERGENCE") && call.factor("CONVERGENCE").text("ARRET") == "NON")
     scene.options.note_unconverged = [&](double instant) { unconverged.insert(instant); };
   if (call.has("ETAT_INIT") && call.factor("ETAT_INIT").has("SIGM"))
-    scene.options.note_unused_stresses = [&](int cell) {
-      warn_of_unused_stresses(call, product->problem, cell, context);
+    scene.options.note_unused_stresses = [&](int cell, solver::UnusedStresses unused) {
+      warn_of_unused_stresses(call, product->problem, cell, unused, context);
     };
   const auto solve = [&] {
     const std::unique_ptr<ResultConcept, decltype(&settle_driven)> settled(product.get(), settle_driven);

@@ -266,8 +266,22 @@ void warn_of_inverted_cells(const interpreter::Call& call, const ResultConcept& 
 }
 
 void warn_of_unused_stresses(const interpreter::Call& call, const solver::StaticProblem& problem, int cell,
-                             Context& context) {
+                             solver::UnusedStresses unused, Context& context) {
   const interpreter::Keywords& given = call.factor("ETAT_INIT");
+  if (unused == solver::UnusedStresses::mean) {
+    context.diagnostics.alarm(
+        "unused-stresses",
+        fmt::format(
+            "{}: the mean of the stresses that ETAT_INIT/SIGM gives cell {}, with SIP, is not its pressure (PRES "
+            "of DEPL, else 0), which follows from the change of volume with INCO_UP: of SIGM the deviator alone "
+            "has an effect there",
+            call.command, problem.model->mesh->cell_name(cell)),
+        given.span_of("SIGM"),
+        "give the displacements and pressures (DEPL) that have these stresses, or take INCO_UPG, where SIGM counts as "
+        "a "
+        "whole");
+    return;
+  }
   const bool by_strains = !problem.behaviours || (*problem.behaviours)[static_cast<std::size_t>(cell)].relation ==
                                                      solver::Relation::hyperelastic;
   context.diagnostics.alarm("unused-stresses",

@@ -25,9 +25,9 @@ void warn_of_contact(const interpreter::Call& call, const solver::StaticProblem&
 void warn_of_unconverged_steps(const interpreter::Call& call, const std::set<double>& instants, Context& context);
 
 /// Alarm `unused-stresses`: what ETAT_INIT gives as SIGM is not what its other fields make of the stresses, of a law
-/// that takes these.
+/// that takes these, or its mean not their pressure, of an element that takes this.
 void warn_of_unused_stresses(const interpreter::Call& call, const solver::StaticProblem& problem, int cell,
-                             Context& context);
+                             solver::UnusedStresses unused, Context& context);
 
 /// Alarm `coarse-turns`, where beams in large rotations have turned so far in their steps that they are longer for it.
 void warn_of_turns(const interpreter::Call& call, const ResultConcept& product, Context& context);

@@ -29,10 +29,8 @@ void StaticRun::start(double instant) {
   assembler_.set_time(instant);
   assembler_.impose_strains(loads_so_far(), instant);
   resume();
-  if (options_.note_unused_stresses && problem_.initial && problem_.initial->stresses) {
-    if (const auto cell = cell_of_other_values(assembler_.stresses(now_.state.u), *problem_.initial->stresses))
-      options_.note_unused_stresses(*cell);
-  }
+  if (options_.note_unused_stresses && problem_.initial && problem_.initial->stresses)
+    note_unused_stresses(*problem_.initial->stresses);
   if (problem_.initial || !result_.steps.empty())
     newton_.begin_with(assembler_.external_forces(loads_so_far(), instant), assembler_.internal_forces(now_.state.u));
   if (mixed_) mixed_->begin_at(now_.state.u, contact_so_far());
@@ -64,6 +62,25 @@ void StaticRun::keep_given(const InitialState& given, ResultStep& step) const {
   for (const auto& [name, field] : given.contact_fields) step.fields.insert_or_assign(name, field);
   step.contact = given.contact;
   if (given.displacement) take_common_values(step.fields.at("DEPL"), *given.displacement);  // multipliers too
+}
+
+// SIP is no stress of the law. With the swelling as an unknown the pressure follows from the law; with the pressure
+// alone it stays what it is, and SIP tells what the mean of the stresses has less than that.
+void StaticRun::note_unused_stresses(const ElementField& given) const {
+  const ElementField taken = assembler_.stresses(now_.state.u);
+  const auto without_pressure = [&](int field_count) {
+    ElementField field = taken;
+    const auto column = static_cast<std::size_t>(field.component("SIP")), width = field.components.size();
+    for (int cell = 0; cell < mesh_.cell_count() && column < width; ++cell)
+      if (mixed_field_count(problem_.model->formulations[static_cast<std::size_t>(cell)]) >= field_count)
+        for (int point = field.starts[cell]; point < field.starts[cell + 1]; ++point)
+          field.values[static_cast<std::size_t>(point) * width + column] = absent;
+    return field;
+  };
+  if (const auto cell = cell_of_other_values(without_pressure(1), given))
+    options_.note_unused_stresses(*cell, UnusedStresses::all);
+  else if (const auto other = cell_of_other_values(without_pressure(2), given))
+    options_.note_unused_stresses(*other, UnusedStresses::mean);
 }
 
 Eigen::VectorXd StaticRun::differential_reference() const {

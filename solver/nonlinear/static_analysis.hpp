@@ -112,6 +112,10 @@ struct ReferenceEfforts {
   double strain = 0.0;  ///< EPSI_REFE, where the pressure is an unknown
 };
 
+/// What of the stresses that a step is to start from counts for nothing: all of them, where laws take those that the
+/// rest of the initial state makes, or their mean, where an element has it from the change of volume.
+enum class UnusedStresses : std::uint8_t { all, mean };
+
 struct NewtonOptions {
   std::optional<double> relative_residual = 1e-6;  ///< RESI_GLOB_RELA
   std::optional<double> absolute_residual;         ///< RESI_GLOB_MAXI
@@ -119,12 +123,11 @@ struct NewtonOptions {
   /// RESI_COMP_RELA: component by component, against the internal forces where the step began.
   std::optional<double> component_residual;
   ReferenceEfforts reference;
-  bool one_criterion = false;                     ///< where both are given, one of them is enough (VERIF='AU_MOINS_UN')
-  int max_iterations = 10;                        ///< ITER_GLOB_MAXI
-  std::function<void(double)> note_unconverged;   ///< set: steps that do not converge within those iterations stand all
-                                                  ///< the same, and are told here by their instant (ARRET='NON')
-  std::function<void(int)> note_unused_stresses;  ///< set: is told a cell whose initial stresses are not those that the
-                                                  ///< rest of the initial state makes, where laws take these
+  bool one_criterion = false;                    ///< where both are given, one of them is enough (VERIF='AU_MOINS_UN')
+  int max_iterations = 10;                       ///< ITER_GLOB_MAXI
+  std::function<void(double)> note_unconverged;  ///< set: steps that do not converge within those iterations stand all
+                                                 ///< the same, and are told here by their instant (ARRET='NON')
+  std::function<void(int, UnusedStresses)> note_unused_stresses;  ///< set: is told a cell where some have no effect
   /// ITER_GLOB_ELAS: where it is more, of steps that are short enough to take the elastic stiffness.
   int max_elastic_iterations = 25;
   std::optional<LinearMethod> method;  ///< empty: chosen for the matrix

@@ -123,6 +123,7 @@ class StaticRun {
   /// Without an initial state the body starts without stress, even where its first temperature is not that of
   /// reference.
   ElementField initial_stresses() const;
+  void note_unused_stresses(const ElementField& given) const;
   void keep_given(const InitialState& given, ResultStep& step) const;
   /// Null where the step has it not.
   const ElementField* field_of_last_step(std::string_view name) const;
