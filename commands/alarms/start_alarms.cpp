@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -12,6 +13,7 @@
 
 #include "commands/concepts.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/error.hpp"
 #include "solver/fields/variable_fields.hpp"
 #include "solver/fields/variable_names.hpp"
 
@@ -43,6 +45,9 @@ double strain_of_bars(const solver::StaticProblem& problem, const solver::FieldI
   return 0.0;
 }
 
+/// Whether the pressure is the bulk modulus times the whole change of volume, whatever the law.
+bool has_elastic_volume(solver::Formulation formulation) { return solver::mixed_field_count(formulation) == 1; }
+
 void warn_of_strained_start(const interpreter::Call& call, const solver::StaticProblem& problem, double instant,
                             Context& context) {
   if (problem.initial || !problem.materials || problem.materials->variables.empty()) return;
@@ -60,12 +65,15 @@ void warn_of_strained_start(const interpreter::Call& call, const solver::StaticP
   if (strain == 0.0) strain = first_strain(solver::command_variable_field(input), "EPSA");
   if (strain == 0.0) strain = strain_of_bars(problem, input);
   if (strain == 0.0) return;
+  const bool has_whole_volumes = std::ranges::any_of(problem.model->formulations, has_elastic_volume);
   context.diagnostics.alarm(
       "strained-start",
-      fmt::format("{}: at the first instant, {:.6g}, command variables differ from their reference values (strain "
-                  "{:.3g}): elasticity without a memory takes the whole strain, "
-                  "laws with a memory and large strains what changes from there",
-                  call.command, instant, strain),
+      fmt::format(
+          "{}: at the first instant, {:.6g}, command variables differ from their reference values (strain "
+          "{:.3g}): elasticity without a memory takes the whole strain, "
+          "laws with a memory and large strains what changes from there{}",
+          call.command, instant, strain,
+          has_whole_volumes ? ", but for the volume of INCO_UP cells, which has the whole whatever the law" : ""),
       call.span, "begin at an instant where the variables have their reference values (VALE_REF)");
 }
 
@@ -97,6 +105,67 @@ void warn_of_missing_state(const interpreter::Call& call, const solver::StaticPr
   };
   if (!problem.initial->displacement) warn("DEPL", "displacements", "DEPL");
   if (!problem.initial->stresses) warn("SIEF_ELGA", "stresses", "SIGM");
+}
+
+/// How a cell takes pressures and command variables, in the middle of it.
+struct ElasticVolume {
+  double bulk = 0.0;
+  double strain = 0.0;  ///< of the command variables
+};
+
+std::optional<ElasticVolume> elastic_volume(const solver::StaticProblem& problem, const solver::FieldInput& input,
+                                            int cell) {
+  const auto* isotropic = isotropic_of(problem, cell);
+  if (isotropic == nullptr) return std::nullopt;
+  const solver::MaterialPoint at = solver::middle_point(input, cell);
+  const solver::IsotropicModuli moduli = solver::moduli(*isotropic, at);
+  return ElasticVolume{moduli.young / (3.0 * (1.0 - 2.0 * moduli.poisson)),
+                       3.0 * solver::inelastic_axial_strain(*isotropic, at)};
+}
+
+// Other elements keep their stresses, and have the new elasticity for what changes from there.
+void warn_of_other_volumes(const interpreter::Call& call, const solver::StaticProblem& problem, double instant,
+                           Context& context) try {
+  if (!problem.initial || !problem.materials || !call.factor("ETAT_INIT").has("EVOL_NOLI")) return;
+  const interpreter::Keywords& given = call.factor("ETAT_INIT");
+  const solver::StaticProblem& before = given.data<ResultConcept>("EVOL_NOLI").problem;
+  if (!before.materials || before.materials == problem.materials || !before.model ||
+      before.model->mesh != problem.model->mesh ||
+      std::ranges::none_of(problem.model->formulations, has_elastic_volume))
+    return;
+  const solver::Mesh& mesh = *problem.model->mesh;
+  const solver::VariableState state(mesh, problem.materials->variables, instant),
+      state_before(mesh, before.materials->variables, instant);
+  const solver::FieldInput input{*problem.model, *problem.materials, *problem.properties, state},
+      input_before{*problem.model, *before.materials, *problem.properties, state_before};
+  const auto differ = [](double a, double b) {
+    constexpr double same = 1e-6;
+    return std::abs(a - b) > same * std::max(std::abs(a), std::abs(b));
+  };
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    if (!has_elastic_volume(problem.model->formulations[static_cast<std::size_t>(cell)]) ||
+        problem.model->is_skin(cell))
+      continue;
+    const auto old = elastic_volume(before, input_before, cell), now = elastic_volume(problem, input, cell);
+    if (!old || !now) continue;
+    std::vector<std::string> others;
+    if (differ(old->bulk, now->bulk))
+      others.push_back(fmt::format("a bulk modulus of {:.6g} after {:.6g}", now->bulk, old->bulk));
+    if (differ(old->strain, now->strain))
+      others.push_back(
+          fmt::format("a change of volume by command variables of {:.3g} after {:.3g}", now->strain, old->strain));
+    if (others.empty()) continue;
+    context.diagnostics.alarm(
+        "other-volume",
+        fmt::format(
+            "{}: cell {} goes on with {}: with INCO_UP pressures follow from the whole change of volume by the "
+            "elasticity of now, so that what was reached before moves, where other elements keep their stresses",
+            call.command, mesh.cell_name(cell), fmt::join(others, " and ")),
+        given.span_of("EVOL_NOLI"), "take INCO_UPG, which keeps the stresses, or go on with the same elasticity");
+    return;
+  }
+} catch (const solver::Error&) {
+  // What was there before need not be known at this instant: it does not go into what is computed.
 }
 
 // Where the initial displacement says nothing of a node it counts as zero.
@@ -229,6 +298,7 @@ void warn_of_start(const interpreter::Call& call, const solver::StaticProblem& p
   warn_of_initial_strains(call, problem, context);
   warn_of_missing_state(call, problem, context);
   warn_of_partial_displacement(call, problem, context);
+  warn_of_other_volumes(call, problem, instant, context);
   warn_of_forgotten_flow(call, problem, context);
   warn_of_lost_variables(call, problem, context);
   warn_of_released_points(call, problem, context);
