@@ -138,15 +138,16 @@ class ZonePoints {
       point.status = PairingStatus::too_far;
       return;
     }
-    const auto hit = search_.nearest(here, own_nodes(point), before);
+    OwnNodes own = own_nodes(point);
+    if (zone_.normal_side != NormalSide::master) own.outward = search_.slave_normal(point.cell, at.xi);
+    const auto hit = search_.nearest(here, own, before);
     if (!hit) return;
     point.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
     point.facet = hit->facet;
     point.master_shape = hit->projection.weights;
     point.foot = hit->projection.foot;
     point.kept = hit->kept;
-    const bool needs_own = zone_.normal_side != NormalSide::master;
-    point.normal = search_.normal(*hit, needs_own ? search_.slave_normal(point.cell, at.xi) : Vector3d::Zero());
+    point.normal = search_.normal(*hit, own.outward.value_or(Vector3d::Zero()));
     point.thickness = thickness_at(zone_, here, point.foot, time_) +
                       half_thickness(zone_, mesh_, point.facet, point.master_shape) +
                       half_thickness(zone_, mesh_, point.cell, point.shape);

@@ -18,6 +18,8 @@ constexpr double bulge = 0.25;
 constexpr double tie_tolerance = 8 * std::numeric_limits<double>::epsilon();
 /// Boxes this share farther than the nearest facet are looked into still: what is left out must not be as near.
 constexpr double search_margin = 1e-10;
+/// Nor is one of them nearer than another by less than this share, where the other looks at the point.
+constexpr double equally_near = 1e-9;
 /// Faces at right angles do not look at each other, whatever rounding says.
 constexpr double least_opposition = 1e-6;
 constexpr double infinitely_far = std::numeric_limits<double>::infinity();
@@ -70,18 +72,33 @@ bool FacetSearch::too_far(const Vector3d& point) const {
   return nearest > zone_.pairing_distance;
 }
 
-std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, const OwnNodes& own,
-                                                     FacedFacet faced) const {
+FacetSearch::Hit FacetSearch::nearest_facet(const Vector3d& point, const OwnNodes& own, Counted counted) const {
   Hit best;
   best.projection.distance = infinitely_far;
   facets_.search(point, [&](int item) {
-    consider(point, own, zone_.master_cells[item], best);
+    consider(point, own, zone_.master_cells[item], counted, best);
     // Along a direction a facet that is far may be met where a near one is passed by.
     if (zone_.pairing_direction && (best.facet < 0 || best.projection.outside > 0.0)) return infinitely_far;
     return best.projection.distance * (1.0 + search_margin) + search_margin;
   });
+  return best;
+}
+
+FacetSearch::Hit FacetSearch::nearest_faced(const Vector3d& point, const OwnNodes& own) const {
+  const Hit nearest = nearest_facet(point, own, Counted::all);
+  if (!own.outward || nearest.facet < 0 || opposes(nearest, *own.outward)) return nearest;
+  const Hit opposing = nearest_facet(point, own, Counted::opposing);
+  const bool is_farther = opposing.projection.distance > nearest.projection.distance * (1.0 + equally_near);
+  const bool lies_behind =
+      opposing.facet >= 0 && is_farther && is_in_front(point, nearest) && !is_in_front(point, opposing);
+  return lies_behind ? Hit{} : opposing;
+}
+
+std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, const OwnNodes& own,
+                                                     FacedFacet faced) const {
+  Hit best = nearest_faced(point, own);
   if (faced.margin > 0.0 && faced.facet >= 0 && faced.facet != best.facet)
-    if (auto before = kept(point, faced, best.projection.distance)) return before;
+    if (auto before = kept(point, faced, best.facet < 0 ? infinitely_far : best.projection.distance)) return before;
   const double slack = faced.margin > 0.0 && faced.facet >= 0 ? faced.margin : 0.0;
   if (best.facet < 0 || is_outside(best.projection, slack)) return std::nullopt;
   best.kept = is_outside(best.projection, 0.0);
@@ -144,14 +161,14 @@ std::optional<Projection> FacetSearch::projected(const Vector3d& point, CellType
   return project_along(Vector3d(zone_.pairing_direction->data()), point, type, places);
 }
 
-void FacetSearch::consider(const Vector3d& point, const OwnNodes& own, int facet, Hit& best) const {
+void FacetSearch::consider(const Vector3d& point, const OwnNodes& own, int facet, Counted counted, Hit& best) const {
   const auto cell = mesh_.cell(facet);
   if (share_a_node(own.nodes, cell) && !(own.face >= 0 && look_at_each_other(own.face, facet))) return;
   std::array<Vector3d, max_facet_nodes> points;
   Box box;
   const auto places = places_of(facet, points, box);
   const auto found = projected(point, mesh_.cell_types[facet], places);
-  if (!found) return;
+  if (!found || (counted == Counted::opposing && !opposes({facet, *found}, *own.outward))) return;
   if (zone_.pairing_direction && best.facet >= 0 && (found->outside > 0.0) != (best.projection.outside > 0.0)) {
     if (found->outside == 0.0) best = {facet, *found};
     return;
@@ -177,12 +194,23 @@ bool FacetSearch::is_outside(const Projection& projection, double margin) const 
   return projection.outside > std::max(0.0, zone_.projection_tolerance) + margin + accuracy;
 }
 
+Vector3d FacetSearch::master_normal(const Hit& hit) const {
+  return master_normals_.empty() ? surface_normal(master_choice(zone_), mesh_, hit.facet, hit.projection.xi, positions_)
+                                 : interpolated_normal(mesh_, hit.facet, hit.projection.xi, master_normals_);
+}
+
+bool FacetSearch::opposes(const Hit& hit, const Vector3d& slave_outward) const {
+  return !has_normal(master_choice(zone_), mesh_, hit.facet) ||
+         master_normal(hit).dot(slave_outward) < -least_opposition;
+}
+
+bool FacetSearch::is_in_front(const Vector3d& point, const Hit& hit) const {
+  return master_normal(hit).dot(point - hit.projection.foot) >= 0.0;
+}
+
 Vector3d FacetSearch::normal(const Hit& hit, const Vector3d& slave_outward) const {
   if (zone_.normal_side == NormalSide::slave) return contact_normal(NormalSide::slave, Vector3d::Zero(), slave_outward);
-  const Vector3d master = master_normals_.empty()
-                              ? surface_normal(master_choice(zone_), mesh_, hit.facet, hit.projection.xi, positions_)
-                              : interpolated_normal(mesh_, hit.facet, hit.projection.xi, master_normals_);
-  return contact_normal(zone_.normal_side, master, slave_outward);
+  return contact_normal(zone_.normal_side, master_normal(hit), slave_outward);
 }
 
 double thickness_at(const ContactZone& zone, const Vector3d& slave, const Vector3d& foot, double time) {

@@ -1,6 +1,7 @@
 // The place on a zone's master surface that a slave point faces.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <unordered_map>
@@ -22,6 +23,8 @@ namespace comma::solver {
 struct OwnNodes {
   std::span<const int> nodes;
   int face = -1;  ///< in which the point lies between nodes; -1: it lies on a node
+  /// The slave's unit normal at the point where gaps are measured along it: facets that do not oppose it are not faced.
+  std::optional<Eigen::Vector3d> outward{};
 };
 
 /// Searches one zone on one geometry. Keeps references to its arguments.
@@ -43,7 +46,9 @@ class FacetSearch {
   /// The facet whose nearest place is nearest; facets of the point's own nodes are passed over. Empty where the
   /// orthogonal projection falls outside that facet by more than the zone's tolerance. Where the zone has a pairing
   /// direction: the nearest facet among those that a line along it meets, else the one that it passes by the closest.
-  /// A facet that was faced before is kept within its margin, and facing any of them.
+  /// A facet that was faced before is kept within its margin, and facing any of them. Of facets that oppose the point's
+  /// normal the nearest counts, if the point does not lie behind it, as behind the far side of a body; it may where it
+  /// lies behind the nearest of all, and so in the body.
   std::optional<Hit> nearest(const Eigen::Vector3d& point, const OwnNodes& own, FacedFacet faced = {}) const;
 
   /// The nearest master node that is none of `own`, on one of its facets. Empty where there is none.
@@ -63,7 +68,14 @@ class FacetSearch {
                                       std::span<const Eigen::Vector3d> places) const;
   std::span<const Eigen::Vector3d> places_of(int facet, std::array<Eigen::Vector3d, max_facet_nodes>& points,
                                              Box& box) const;
-  void consider(const Eigen::Vector3d& point, const OwnNodes& own, int facet, Hit& best) const;
+  enum class Counted : std::uint8_t { all, opposing };
+  Hit nearest_facet(const Eigen::Vector3d& point, const OwnNodes& own, Counted counted) const;
+  /// Of facet -1 where there is none.
+  Hit nearest_faced(const Eigen::Vector3d& point, const OwnNodes& own) const;
+  void consider(const Eigen::Vector3d& point, const OwnNodes& own, int facet, Counted counted, Hit& best) const;
+  Eigen::Vector3d master_normal(const Hit& hit) const;
+  bool opposes(const Hit& hit, const Eigen::Vector3d& slave_outward) const;
+  bool is_in_front(const Eigen::Vector3d& point, const Hit& hit) const;
   std::optional<Hit> kept(const Eigen::Vector3d& point, FacedFacet faced, double least_distance) const;
   bool look_at_each_other(int face, int facet) const;
   bool is_outside(const Projection& projection, double margin) const;

@@ -70,6 +70,10 @@ Vector3d normal_across(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, P
 
 }  // namespace
 
+bool has_normal(const NormalChoice& choice, const Mesh& mesh, int facet) {
+  return choice.rule != NormalRule::automatic || !is_line_in_space(mesh, facet);
+}
+
 std::unordered_map<int, Vector3d> nodal_normals(const Mesh& mesh, std::span<const int> cells, Positions positions,
                                                 const NormalChoice& choice) {
   std::unordered_map<int, Vector3d> normals;

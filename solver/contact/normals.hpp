@@ -23,6 +23,9 @@ struct NormalChoice {
 inline NormalChoice master_choice(const ContactZone& zone) { return {zone.master_normal, zone.master_vector}; }
 inline NormalChoice slave_choice(const ContactZone& zone) { return {zone.slave_normal, zone.slave_vector}; }
 
+/// Whether a facet has a normal: a line in space has none by itself.
+bool has_normal(const NormalChoice& choice, const Mesh& mesh, int facet);
+
 /// Outward unit normal of a surface at a reference point of one of its facets (U4.44.11, VECT_MAIT, VECT_ESCL).
 /// Throws Error `unsupported` for a line in space without a given normal, `degenerate-facet` for a null one.
 Eigen::Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet, const Eigen::Vector2d& xi,

@@ -53,9 +53,10 @@ class ZonePairing {
 
  private:
   std::optional<FacetSearch::Hit> place_on_master(int slave, FacedFacet before) const {
-    const std::span own(&slave, 1);
-    return zone_.pairing == PairingRule::node ? search_.nearest_node(positions_[slave], own)
-                                              : search_.nearest(positions_[slave], {own}, before);
+    OwnNodes own{std::span(&slave, 1)};
+    if (zone_.pairing == PairingRule::node) return search_.nearest_node(positions_[slave], own.nodes);
+    if (const auto normal = slave_normals_.find(slave); normal != slave_normals_.end()) own.outward = normal->second;
+    return search_.nearest(positions_[slave], own, before);
   }
 
   const ContactZone& zone_;

@@ -127,6 +127,46 @@ TEST_CASE("With a pairing direction a slave node takes the facet that lies in it
   CHECK((pairs[1].foot - Vector3d(4, 0, 0)).norm() == 0.0);
 }
 
+TEST_CASE("Along its own normal a slave node faces only what it looks at") {
+  const auto status = [](const Vector3d& first, const Vector3d& second, NormalSide side) {
+    Table table({first, second});
+    table.zone().normal_side = side;
+    return table.pair()[0].status;
+  };
+  for (const NormalSide side : {NormalSide::slave, NormalSide::average}) {
+    CHECK(status({1, 1, 0}, {2, 1, 0}, side) == PairingStatus::paired);    // downwards
+    CHECK(status({1, 2, 0}, {1, 1, 0}, side) == PairingStatus::outside);   // sideways
+    CHECK(status({2, 1, 0}, {1, 1, 0}, side) == PairingStatus::outside);   // upwards: the master is behind it
+    CHECK(status({1, -1, 0}, {2, -1, 0}, side) == PairingStatus::paired);  // overlapping
+  }
+  CHECK(status({2, 1, 0}, {1, 1, 0}, NormalSide::master) == PairingStatus::paired);
+}
+
+TEST_CASE("A wall that it looks at is faced across the corner, the far side of a body in between is not") {
+  Table table({{0.2, 1.5, 0}, {0.2, 0.5, 0}});  // looks to the left, above the floor
+  ContactZone& zone = table.zone();
+  zone.normal_side = NormalSide::slave;
+  Mesh& mesh = table.mesh;
+  const auto wall = [&](double x, bool to_the_right) {
+    mesh.nodes.push_back({x, 0, 0});
+    mesh.nodes.push_back({x, 2, 0});
+    const int low = mesh.node_count() - 2, high = low + 1;
+    zone.master_cells.push_back(
+        mesh.add_cell(CellType::seg2, to_the_right ? std::vector<int>{low, high} : std::vector<int>{high, low}));
+    return zone.master_cells.back();
+  };
+  CHECK(table.pair()[0].status == PairingStatus::outside);
+  const int left = wall(-1.0, true);
+  CHECK(table.pair()[0].facet == left);
+  CHECK(table.pair()[0].normal == Vector3d(1, 0, 0));
+  zone.master_cells.pop_back();
+  wall(0.4, false);  // another body, to the right of the slave
+  const int far_side = wall(0.6, true);
+  CHECK(table.pair()[0].status == PairingStatus::outside);
+  zone.master_cells = {far_side};
+  CHECK(table.pair()[0].facet == far_side);  // overlapping it
+}
+
 TEST_CASE("What elements add to both sides is taken off the gap") {
   Table table({{1, 1, 0}, {3, 1, 0}});
   table.zone().half_thickness[0] = {0.1, 0.3};  // the facet from x = 2 to x = 0
