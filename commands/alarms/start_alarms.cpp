@@ -13,6 +13,7 @@
 
 #include "commands/concepts.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/elements/imposed_strains.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/variable_fields.hpp"
 #include "solver/fields/variable_names.hpp"
