@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "commands/concepts.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/elements/imposed_strains.hpp"
+#include "solver/elements/plate_axes.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/variable_fields.hpp"
 #include "solver/fields/variable_names.hpp"
@@ -169,6 +171,52 @@ void warn_of_other_volumes(const interpreter::Call& call, const solver::StaticPr
   // What was there before need not be known at this instant: it does not go into what is computed.
 }
 
+/// By which stresses and forces of the cell are to be read otherwise than before; empty: by nothing.
+std::vector<const char*> changes_of_frame(const solver::Mesh& mesh, int cell, const solver::ElementProperties& before,
+                                          const solver::ElementProperties& now) {
+  constexpr double rounding = 1e-9;
+  const auto differ = [](const auto& a, const auto& b) { return (a - b).norm() > rounding; };
+  std::vector<const char*> result;
+  const auto in_both = [cell](const auto& one, const auto& other) {
+    return one.contains(cell) && other.contains(cell) ? std::optional(std::pair(one.at(cell), other.at(cell)))
+                                                      : std::nullopt;
+  };
+  if (const auto plates = in_both(before.plates, now.plates)) {
+    const auto& [old, own] = *plates;
+    if (differ(solver::plate_axes(mesh, cell, old), solver::plate_axes(mesh, cell, own)))
+      result.push_back("other own axes");
+    if (std::abs(old.thickness - own.thickness) > rounding * own.thickness) result.push_back("another thickness");
+    if (std::abs(old.offset - own.offset) > rounding * own.thickness) result.push_back("another offset");
+  }
+  if (const auto beams = in_both(before.sections, now.sections))
+    if (std::abs(beams->first.roll - beams->second.roll) > rounding) result.push_back("other own axes");
+  if (const auto springs = in_both(before.discrete, now.discrete))
+    if (differ(springs->first.axes, springs->second.axes)) result.push_back("other own axes");
+  return result;
+}
+
+// Stresses of plates, and forces of beams and springs, are components in own axes.
+void warn_of_other_frames(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
+  if (!problem.initial || !problem.initial->stresses || !call.factor("ETAT_INIT").has("EVOL_NOLI")) return;
+  const interpreter::Keywords& given = call.factor("ETAT_INIT");
+  const solver::StaticProblem& before = given.data<ResultConcept>("EVOL_NOLI").problem;
+  if (!before.properties || before.properties == problem.properties || !before.model ||
+      before.model->mesh != problem.model->mesh)
+    return;
+  const solver::Mesh& mesh = *problem.model->mesh;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    const auto changes = changes_of_frame(mesh, cell, *before.properties, *problem.properties);
+    if (changes.empty()) continue;
+    context.diagnostics.alarm(
+        "other-frame",
+        fmt::format("{}: cell {} goes on with {}: the stresses and forces of the state that it starts from are "
+                    "taken for those of now, and need not balance the loads",
+                    call.command, mesh.cell_name(cell), fmt::join(changes, " and ")),
+        given.span_of("EVOL_NOLI"), "go on with the axes, thickness and offset of before");
+    return;
+  }
+}
+
 // Where the initial displacement says nothing of a node it counts as zero.
 void warn_of_partial_displacement(const interpreter::Call& call, const solver::StaticProblem& problem,
                                   Context& context) {
@@ -300,6 +348,7 @@ void warn_of_start(const interpreter::Call& call, const solver::StaticProblem& p
   warn_of_missing_state(call, problem, context);
   warn_of_partial_displacement(call, problem, context);
   warn_of_other_volumes(call, problem, instant, context);
+  warn_of_other_frames(call, problem, context);
   warn_of_forgotten_flow(call, problem, context);
   warn_of_lost_variables(call, problem, context);
   warn_of_released_points(call, problem, context);
