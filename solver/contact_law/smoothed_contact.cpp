@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 using Entries = std::vector<Eigen::Triplet<double>>;
 using SparseColumns = Eigen::SparseMatrix<double>;
 
-/// A dense system of so many unknowns takes half a second; one of points between nodes, where more of them are needed,
-/// a tenth.
+/// A dense system of so many unknowns takes half a second; one on what the rows of many points between nodes touch a
+/// tenth.
 constexpr Index most_unknowns = 2000, most_unknowns_between = 1000;
 /// Of Newton's method: for one rounding, for all, and so few that the next step may be larger.
 constexpr int most_iterations_once = 20;
@@ -123,10 +123,9 @@ class Smoothing {
   }
 
   bool is_too_large() const {
-    if (on_nodes_) return size() > most_unknowns;
-    if (const auto factors = schur_.factors(rows_))
-      return std::min(rows(), factors->rows.cols()) + multipliers_ > most_unknowns_between;
-    return size() > most_unknowns;
+    if (size() <= most_unknowns) return false;
+    const auto factors = on_nodes_ ? std::nullopt : schur_.factors(rows_);
+    return !factors || factors->rows.cols() + multipliers_ > most_unknowns_between;
   }
 
   /// S f on the rows.
