@@ -47,6 +47,7 @@ void SchurComplement::choose_form() {
 }
 
 void SchurComplement::solve_factor() {
+  clear();
   const auto count = static_cast<Eigen::Index>(support_.size());
   RowMatrix units(count, rows_.cols());
   for (Eigen::Index k = 0; k < count; ++k) units.insert(k, support_[static_cast<std::size_t>(k)]) = 1.0;
@@ -62,7 +63,15 @@ void SchurComplement::solve_factor() {
     factor_ = std::move(factor);
   }
   exact_ = true;
-  ++version_;
+}
+
+/// A few columns of many unknowns take less than the factor.
+bool SchurComplement::prefers_columns(std::span<const int> indices) const {
+  if (keeps_compliance()) return false;
+  std::size_t wanted = 0;
+  for (std::size_t row = 0; row < columns_.size(); ++row) wanted += columns_[row].size() != 0;
+  for (const int index : indices) wanted += columns_[static_cast<std::size_t>(index)].size() == 0;
+  return static_cast<double>(wanted) < few_columns * static_cast<double>(support_.size());
 }
 
 Eigen::VectorXd SchurComplement::times_factors(const Eigen::VectorXd& x) const {
@@ -144,8 +153,9 @@ bool SchurComplement::has_columns() const {
 }
 
 void SchurComplement::require(std::span<const int> indices) {
-  if (is_factored_) {
-    if (!has_factors() && !indices.empty()) solve_factor();
+  if (has_factors() || indices.empty()) return;
+  if (is_factored_ && !prefers_columns(indices)) {
+    solve_factor();
     return;
   }
   std::vector<int> missing;
@@ -178,7 +188,8 @@ void SchurComplement::solve_rows(const std::vector<int>& missing) {
 }
 
 bool SchurComplement::solve_whole(const std::vector<int>& missing) {
-  if (!whole_ || missing.size() < many_columns || static_cast<double>(missing.size()) < many_share * size())
+  if (!whole_ || is_factored_ || missing.size() < many_columns ||
+      static_cast<double>(missing.size()) < many_share * size())
     return false;
   single_ = {};
   whole_matrix_ = whole_(rows_);
@@ -256,7 +267,7 @@ Eigen::VectorXd SchurComplement::times(const Eigen::VectorXd& x) {
   for (int row = 0; row < size(); ++row)
     if (x[row] != 0.0) taken.push_back(row);
   require(taken);
-  if (is_factored_) return taken.empty() ? Eigen::VectorXd::Zero(size()) : times_factors(x);
+  if (has_factors()) return times_factors(x);
   if (whole_matrix_.size() && static_cast<double>(taken.size()) >= many_share * size())
     return symmetric_product(whole_matrix_, x);
   Eigen::VectorXd product = Eigen::VectorXd::Zero(size());
@@ -281,14 +292,13 @@ void SchurComplement::replace_rows(RowMatrix rows, std::vector<int> keys, Eigen:
   softness_ = std::move(softness);
   if (same_matrix(rows_, rows) && keys_ == keys) return;
   rows_change_ = rows_change_ || rows_.rows() > 0;
-  if (is_factored_ && replace_factored_rows(rows, keys)) return;
+  if (has_factors() && replace_factored_rows(rows, keys)) return;
   const bool same_keys = keys_ == keys && rows_.rows() == rows.rows();
   const bool taken = !keeps_compliance() && has_columns() && (same_keys || take_over(rows, keys));
   rows_ = std::move(rows);
   keys_ = std::move(keys);
   exact_ = !taken;
-  if (taken) return;
-  clear();
+  if (!taken) clear();
   choose_form();
 }
 

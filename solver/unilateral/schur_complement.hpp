@@ -122,6 +122,8 @@ class SchurComplement {
   static constexpr int factored_rows = 600;
   static constexpr double factored_share = 1.2;
   static constexpr std::size_t largest_factor = 6000;
+  /// Of more unknowns than the compliance is kept of, columns are made one by one up to this share.
+  static constexpr double few_columns = 0.25;
 
  private:
   bool keeps_compliance() const { return support_.size() <= largest_support; }
@@ -130,6 +132,7 @@ class SchurComplement {
   void choose_form();
   bool replace_factored_rows(RowMatrix& rows, std::vector<int>& keys);
   void solve_factor();
+  bool prefers_columns(std::span<const int> indices) const;
   RowMatrix on_support(const std::vector<int>& rows) const;
   Eigen::VectorXd times_factors(const Eigen::VectorXd& x) const;
   Eigen::VectorXd column_of_factors(int row) const;

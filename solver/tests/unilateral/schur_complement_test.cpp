@@ -258,3 +258,51 @@ TEST_CASE("Of many rows on few unknowns S is its factors: one solve an unknown, 
     check({});
   }
 }
+
+TEST_CASE("Few of many rows on many unknowns are solved for one by one, and more of them at once") {
+  const int unknowns = static_cast<int>(SchurComplement::largest_support) + 20, m = 2 * unknowns;
+  const auto rows = [&](double share) {
+    RowMatrix result(m, unknowns);
+    for (int row = 0; row < m; ++row) {
+      const int at = row % (unknowns - 1);
+      result.insert(row, at) = 1.0;
+      result.insert(row, at + 1) = share;
+    }
+    return result;
+  };
+  std::vector<int> all(m);
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<int> support(all.begin(), all.begin() + unknowns);
+  long solves = 0;
+  SchurComplement schur(
+      rows(0.5),
+      [&](Eigen::Ref<Eigen::MatrixXd> rhs) {
+        solves += rhs.cols();
+        rhs *= 2.0;
+      },
+      support);
+  const auto check = [&](double share, std::vector<int> required) {
+    schur.require(required);
+    const Eigen::VectorXd expected = 2.0 * (rows(share) * rows(share).row(7).transpose()).toDense();
+    CHECK((schur.column(7) - expected).norm() < 1e-14 * expected.norm());
+    Eigen::VectorXd x = Eigen::VectorXd::Zero(m);
+    x[7] = -3.0;
+    CHECK((schur.times(x) + 3.0 * expected).norm() < 1e-14 * expected.norm());
+    CHECK(schur.is_exact());
+  };
+  check(0.5, {3, 7, m - 1});
+  CHECK(solves == 3);
+  check(0.5, all);
+  CHECK(solves == 3 + unknowns);
+  schur.replace_rows(rows(0.25));
+  check(0.25, all);
+  CHECK(solves == 3 + unknowns);
+
+  SECTION("from columns of other rows too") {
+    schur.start_anew();
+    schur.require(std::vector<int>{7});
+    schur.replace_rows(rows(0.5));
+    CHECK(!schur.is_exact());
+    check(0.5, all);
+  }
+}
