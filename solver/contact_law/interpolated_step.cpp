@@ -37,9 +37,10 @@ void InterpolatedSolver::take(const InterpolatedStep& step, const SchurComplemen
 
 VectorXd InterpolatedSolver::solve(const InterpolatedStep& step, const SchurComplement& schur, const VectorXd& b) {
   take(step, schur);
-  if (const auto factors = schur.factors(step.rows()); factors && factors->rows.cols() < step.row_count()) {
-    if (!on_support_) on_support_ = std::make_shared<const SupportStep>(step, *factors);
-    return on_support_->solve(b, factors->compliance);
+  if (const MatrixXd* compliance = schur.kept_compliance(); compliance && compliance->rows() < step.row_count()) {
+    if (!on_support_)
+      on_support_ = std::make_shared<const SupportStep>(step, schur.on_support(step.rows()), *compliance);
+    return on_support_->solve(b, *compliance);
   }
   if (!all_) {
     const Index rows = step.row_count();

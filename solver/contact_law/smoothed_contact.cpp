@@ -124,8 +124,8 @@ class Smoothing {
 
   bool is_too_large() const {
     if (size() <= most_unknowns) return false;
-    const auto factors = on_nodes_ ? std::nullopt : schur_.factors(rows_);
-    return !factors || factors->rows.cols() + multipliers_ > most_unknowns_between;
+    const Eigen::MatrixXd* compliance = on_nodes_ ? nullptr : schur_.kept_compliance();
+    return compliance == nullptr || compliance->rows() + multipliers_ > most_unknowns_between;
   }
 
   /// S f on the rows.

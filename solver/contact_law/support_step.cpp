@@ -1,5 +1,7 @@
 #include "solver/contact_law/support_step.hpp"
 
+#include <utility>
+
 #include "solver/linear/sparse_products.hpp"
 
 namespace comma::solver {
@@ -10,15 +12,14 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using SparseColumns = Eigen::SparseMatrix<double>;
 
-MatrixXd equations(const InterpolatedStep& step, const SchurComplement::Factors& factors) {
-  const Index support = factors.rows.cols(), rows = step.row_count(), laws = step.law_count();
-  const SparseColumns forces = step.forces(), law = step.laws(), on_rows(factors.rows),
+MatrixXd equations(const InterpolatedStep& step, const RowMatrix& rows_on_support, const MatrixXd& compliance) {
+  const Index support = rows_on_support.cols(), rows = step.row_count(), laws = step.law_count();
+  const SparseColumns forces = step.forces(), law = step.laws(), on_rows(rows_on_support),
                       on_support = on_rows.transpose() * forces;
   MatrixXd result(support + laws, support + laws);
-  result.topLeftCorner(support, support) =
-      -product(factors.compliance, SparseColumns(on_support.leftCols(rows) * on_rows));
+  result.topLeftCorner(support, support) = -product(compliance, SparseColumns(on_support.leftCols(rows) * on_rows));
   result.topLeftCorner(support, support).diagonal().array() += 1.0;
-  result.topRightCorner(support, laws) = -product(factors.compliance, SparseColumns(on_support.rightCols(laws)));
+  result.topRightCorner(support, laws) = -product(compliance, SparseColumns(on_support.rightCols(laws)));
   result.bottomLeftCorner(laws, support) = SparseColumns(law.leftCols(rows) * on_rows);
   result.bottomRightCorner(laws, laws) = law.rightCols(laws);
   result.bottomRows(laws).array().colwise() /= step.weights().array();
@@ -27,12 +28,12 @@ MatrixXd equations(const InterpolatedStep& step, const SchurComplement::Factors&
 
 }  // namespace
 
-SupportStep::SupportStep(const InterpolatedStep& step, const SchurComplement::Factors& factors)
-    : rows_(factors.rows),
+SupportStep::SupportStep(const InterpolatedStep& step, RowMatrix rows, const MatrixXd& compliance)
+    : rows_(std::move(rows)),
       forces_(step.forces()),
       laws_(step.laws()),
       weights_(step.weights()),
-      system_(equations(step, factors)) {}
+      system_(equations(step, rows_, compliance)) {}
 
 VectorXd SupportStep::solve(const VectorXd& b, const MatrixXd& compliance) const {
   VectorXd x = solve_once(b, compliance);

@@ -7,7 +7,6 @@
 #include "solver/contact_law/interpolated_step.hpp"
 #include "solver/linear/dense_solve.hpp"
 #include "solver/linear/row_matrix.hpp"
-#include "solver/unilateral/schur_complement.hpp"
 
 namespace comma::solver {
 
@@ -17,8 +16,9 @@ namespace comma::solver {
 /// themselves gives them their digits.
 class SupportStep {
  public:
-  SupportStep(const InterpolatedStep& step, const SchurComplement::Factors& factors);
-  /// x for b (one an unknown, jumps first); `compliance`: that of the factors.
+  /// `rows`: A, of those of the step.
+  SupportStep(const InterpolatedStep& step, RowMatrix rows, const Eigen::MatrixXd& compliance);
+  /// x for b (one an unknown, jumps first), with the same compliance.
   Eigen::VectorXd solve(const Eigen::VectorXd& b, const Eigen::MatrixXd& compliance) const;
 
  private:

@@ -112,8 +112,8 @@ std::vector<double> Assembler::excess_of(const ElementBlock& block, const Eigen:
 // By stresses, as fields have them: what a small force is beside a large moment follows from the thickness.
 std::vector<double> Assembler::excess_of_plates(const ElementBlock& block, const Eigen::VectorXd& u,
                                                 const ElementField& given) const {
-  const ElementField field =
-      plate_stresses(model_, properties_, plate_forces(u, PlatePlaces::integration_points, imposed_.get()));
+  const ElementField of_displacements = plate_forces(u, PlatePlaces::integration_points, imposed_.get());
+  const ElementField field = plate_stresses(model_, properties_, of_displacements);
   const std::vector<double> found = values_on(block.cells(), field, given, *model_.mesh);
   const std::vector<double> known = values_on(block.cells(), field, field, *model_.mesh);
   double largest = 0.0;
@@ -135,7 +135,8 @@ std::vector<double> Assembler::excess_of_plates(const ElementBlock& block, const
                                 model_.mesh->cell_name(cell)),
                     "give SIXX, SIYY and SIXY that are linear through the thickness, SIXZ and SIYZ as a parabola that "
                     "vanishes on both faces, and SIZZ = 0, as SIEF_ELGA has them");
-      const PlateForces beside = *forces - *forces_of_plate_stresses(section, std::span(known).subspan(begin, each));
+      PlateForces beside = *forces;
+      for (int k = 0; k < static_cast<int>(beside.size()); ++k) beside[k] -= of_displacements.at(cell, point, k);
       excess.insert(excess.end(), beside.begin(), beside.end());
     }
   }

@@ -119,11 +119,6 @@ RowMatrix SchurComplement::on_support(const std::vector<int>& rows) const {
   return taken;
 }
 
-std::optional<SchurComplement::Factors> SchurComplement::factors(const std::vector<int>& rows) const {
-  if (!has_factors() || softness_.size()) return std::nullopt;
-  return Factors{on_support(rows), factor_};
-}
-
 Responses SchurComplement::responses(const std::vector<int>& rows, const SparseColumns& forces) const {
   const auto count = static_cast<Eigen::Index>(rows.size());
   if (has_factors()) {

@@ -82,12 +82,10 @@ class SchurComplement {
   Eigen::VectorXd times_roughly(const Eigen::VectorXd& x);
   /// S F between some rows (n), for forces F on these rows alone (n x k); their columns must have been required.
   Responses responses(const std::vector<int>& rows, const Eigen::SparseMatrix<double>& forces) const;
-  /// A of these rows over the support, and C, where S = A C A^T is kept so and rows do not give way by themselves.
-  struct Factors {
-    RowMatrix rows;
-    const Eigen::MatrixXd& compliance;
-  };
-  std::optional<Factors> factors(const std::vector<int>& rows) const;
+  /// C, where S = A C A^T is kept so and rows do not give way by themselves; otherwise null.
+  const Eigen::MatrixXd* kept_compliance() const { return has_factors() && softness_.size() == 0 ? &factor_ : nullptr; }
+  /// A of these rows over the support, where S is kept so.
+  RowMatrix on_support(const std::vector<int>& rows) const;
   /// The entries on some rows of S x for an x on these rows alone (one a row).
   Eigen::VectorXd times_roughly(const std::vector<int>& rows, const Eigen::VectorXd& x);
   bool known(int index) const {
@@ -133,7 +131,6 @@ class SchurComplement {
   bool replace_factored_rows(RowMatrix& rows, std::vector<int>& keys);
   void solve_factor();
   bool prefers_columns(std::span<const int> indices) const;
-  RowMatrix on_support(const std::vector<int>& rows) const;
   Eigen::VectorXd times_factors(const Eigen::VectorXd& x) const;
   Eigen::VectorXd column_of_factors(int row) const;
   void take_columns(const std::vector<int>& origin);
