@@ -122,7 +122,8 @@ bool bound_bodies(const solver::Mesh& mesh, const std::vector<int>& cells) {
 bool points_inward(const std::array<double, 3>& direction, std::span<const int> cells, const solver::Mesh& mesh) {
   const std::vector<Eigen::Vector3d> places = solver::places(mesh);
   const auto is_against = [&](int cell) {
-    return solver::outward_normal(mesh, cell, inside_of_face(), places).dot(Eigen::Vector3d(direction.data())) < 0.0;
+    return solver::surface_normal({}, mesh, cell, inside_of_face(), places).dot(Eigen::Vector3d(direction.data())) <
+           0.0;
   };
   return std::ranges::all_of(cells, is_against);
 }
@@ -179,7 +180,7 @@ std::pair<int, int> facing_nodes(const solver::ContactZone& zone, const solver::
   for (const solver::ContactPair& pair : solver::pair_surfaces(alone, mesh, places, 0.0)) {
     if (pair.status != solver::PairingStatus::paired) continue;
     ++count.first;
-    const Eigen::Vector3d out = solver::outward_normal(mesh, pair.facet, inside_of_face(), places);
+    const Eigen::Vector3d out = solver::surface_normal({}, mesh, pair.facet, inside_of_face(), places);
     const double height = out.dot(places[static_cast<std::size_t>(pair.slave)] - pair.foot);
     count.second += normals.at(pair.slave).dot(out) > same_way && height < -rounding * solver::extent(mesh, pair.facet);
   }

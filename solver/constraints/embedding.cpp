@@ -72,7 +72,7 @@ Embedding on_facet(const Mesh& mesh, const Guest& guest, int cell, CellType type
   for (const int a : local) points.push_back(place(mesh, mesh.cell(cell)[a]));
   Embedding result{guest.node, cell, std::vector<double>(mesh.cell(cell).size(), 0.0),
                    std::numeric_limits<double>::infinity()};
-  const auto foot = project(guest.at, type, points);
+  const auto foot = project_exactly(guest.at, type, points);
   if (!foot) return result;
   result.distance = foot->distance;
   for (std::size_t a = 0; a < local.size(); ++a) result.weights[local[a]] = foot->weights[a];

@@ -198,15 +198,15 @@ Vector2d bring_back(CellType type, const Vector2d& xi) {
   return clamped.sum() <= 1.0 && (clamped - xi).norm() < (on_edge - xi).norm() ? clamped : on_edge;
 }
 
-Eigen::Matrix<double, 3, 2> facet_tangents(CellType type, std::span<const Eigen::Vector3d> points, const Vector2d& xi) {
+Tangents facet_tangents(CellType type, std::span<const Eigen::Vector3d> points, const Vector2d& xi) {
   const FacetShape shape = facet_shape(type, xi);
-  Eigen::Matrix<double, 3, 2> tangents = Eigen::Matrix<double, 3, 2>::Zero();
+  Tangents tangents = Tangents::Zero();
   for (std::size_t i = 0; i < points.size(); ++i) tangents += points[i] * shape.gradients[i].transpose();
   return tangents;
 }
 
 double facet_stretch(CellType type, std::span<const Eigen::Vector3d> points, const Vector2d& xi, bool times_radius) {
-  const Eigen::Matrix<double, 3, 2> tangents = facet_tangents(type, points, xi);
+  const Tangents tangents = facet_tangents(type, points, xi);
   const double stretch = family_of(type) == Family::line
                              ? tangents.col(0).norm()
                              : Eigen::Vector3d(tangents.col(0)).cross(Eigen::Vector3d(tangents.col(1))).norm();
@@ -218,7 +218,10 @@ double facet_stretch(CellType type, std::span<const Eigen::Vector3d> points, con
 }
 
 Eigen::Vector3d facet_normal(CellType type, std::span<const Eigen::Vector3d> points, const Vector2d& xi) {
-  const Eigen::Matrix<double, 3, 2> tangents = facet_tangents(type, points, xi);
+  return facet_normal(type, facet_tangents(type, points, xi));
+}
+
+Eigen::Vector3d facet_normal(CellType type, const Tangents& tangents) {
   Eigen::Vector3d normal;
   if (family_of(type) == Family::line) {
     normal = {tangents(1, 0), -tangents(0, 0), 0.0};

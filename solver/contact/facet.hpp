@@ -31,9 +31,10 @@ double outside_distance(CellType type, const Eigen::Vector2d& xi);
 /// The nearest point of the reference cell.
 Eigen::Vector2d bring_back(CellType type, const Eigen::Vector2d& xi);
 
-/// Tangents (columns; the second is zero on a line) at a reference point; `points`: one a node.
-Eigen::Matrix<double, 3, 2> facet_tangents(CellType type, std::span<const Eigen::Vector3d> points,
-                                           const Eigen::Vector2d& xi);
+/// Columns; the second is zero on a line.
+using Tangents = Eigen::Matrix<double, 3, 2>;
+/// At a reference point; `points`: one a node.
+Tangents facet_tangents(CellType type, std::span<const Eigen::Vector3d> points, const Eigen::Vector2d& xi);
 
 /// Area (length of a line) a unit of the reference cell's; with `times_radius`, of what turns round the axis x = 0 by a
 /// radian.
@@ -43,5 +44,6 @@ double facet_stretch(CellType type, std::span<const Eigen::Vector3d> points, con
 /// Unit normal: on the right of a line in the plane (the outer side of an edge that goes counter-clockwise round its
 /// face), the cross product of the tangents on a surface. Throws Error `degenerate-facet` where it vanishes.
 Eigen::Vector3d facet_normal(CellType type, std::span<const Eigen::Vector3d> points, const Eigen::Vector2d& xi);
+Eigen::Vector3d facet_normal(CellType type, const Tangents& tangents);
 
 }  // namespace comma::solver

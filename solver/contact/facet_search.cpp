@@ -20,6 +20,8 @@ constexpr double tie_tolerance = 8 * std::numeric_limits<double>::epsilon();
 constexpr double search_margin = 1e-10;
 /// Nor is one of them nearer than another by less than this share, where the other looks at the point.
 constexpr double equally_near = 1e-9;
+/// A facet this much nearer than those around the nearest node is the one that the point comes to touch.
+constexpr double much_nearer = 0.5;
 /// Faces at right angles do not look at each other, whatever rounding says.
 constexpr double least_opposition = 1e-6;
 constexpr double infinitely_far = std::numeric_limits<double>::infinity();
@@ -35,6 +37,7 @@ FacetSearch::FacetSearch(const ContactZone& zone, bool smooth, const Mesh& mesh,
       mesh_(mesh),
       positions_(positions),
       master_nodes_(mesh.nodes_of_cells(zone.master_cells)),
+      facets_of_nodes_(facets_of_nodes()),
       facets_(facet_boxes()),
       nodes_(node_boxes()) {
   if (!smooth) return;
@@ -42,6 +45,13 @@ FacetSearch::FacetSearch(const ContactZone& zone, bool smooth, const Mesh& mesh,
     master_normals_ = nodal_normals(mesh, zone.master_cells, positions);
   if (zone.normal_side != NormalSide::master)
     slave_normals_ = nodal_normals(mesh, zone.slave_cells, positions, slave_choice(zone));
+}
+
+std::unordered_map<int, std::vector<int>> FacetSearch::facets_of_nodes() const {
+  std::unordered_map<int, std::vector<int>> facets;
+  for (const int facet : zone_.master_cells)
+    for (const int node : mesh_.cell(facet)) facets[node].push_back(facet);
+  return facets;
 }
 
 std::vector<Box> FacetSearch::facet_boxes() const {
@@ -84,8 +94,26 @@ FacetSearch::Hit FacetSearch::nearest_facet(const Vector3d& point, const OwnNode
   return best;
 }
 
-FacetSearch::Hit FacetSearch::nearest_faced(const Vector3d& point, const OwnNodes& own) const {
+FacetSearch::Hit FacetSearch::around_nearest_node(const Vector3d& point, const OwnNodes& own) const {
+  Hit best;
+  best.projection.distance = infinitely_far;
+  const int nearest = nearest_master_node(point, own.nodes);
+  if (nearest < 0) return best;
+  for (const int facet : facets_of_nodes_.at(nearest)) consider(point, own, facet, Counted::all, best);
+  return best;
+}
+
+FacetSearch::Hit FacetSearch::nearest_counted(const Vector3d& point, const OwnNodes& own) const {
   const Hit nearest = nearest_facet(point, own, Counted::all);
+  if (zone_.pairing_direction || nearest.facet < 0) return nearest;
+  const Hit around = around_nearest_node(point, own);
+  const bool is_sound = around.facet >= 0 && !is_outside(around.projection, 0.0) &&
+                        nearest.projection.distance >= much_nearer * around.projection.distance;
+  return is_sound ? around : nearest;
+}
+
+FacetSearch::Hit FacetSearch::nearest_faced(const Vector3d& point, const OwnNodes& own) const {
+  const Hit nearest = nearest_counted(point, own);
   if (!own.outward || nearest.facet < 0 || opposes(nearest, *own.outward)) return nearest;
   const Hit opposing = nearest_facet(point, own, Counted::opposing);
   const bool is_farther = opposing.projection.distance > nearest.projection.distance * (1.0 + equally_near);
@@ -127,7 +155,7 @@ std::span<const Vector3d> FacetSearch::places_of(int facet, std::array<Vector3d,
   return std::span<const Vector3d>(points.data(), cell.size());
 }
 
-std::optional<FacetSearch::Hit> FacetSearch::nearest_node(const Vector3d& point, std::span<const int> own) const {
+int FacetSearch::nearest_master_node(const Vector3d& point, std::span<const int> own) const {
   int nearest = -1;
   double distance = infinitely_far;
   nodes_.search(point, [&](int item) {
@@ -139,20 +167,22 @@ std::optional<FacetSearch::Hit> FacetSearch::nearest_node(const Vector3d& point,
     }
     return distance;
   });
-  for (const int facet : zone_.master_cells) {
-    const auto nodes = mesh_.cell(facet);
-    const auto found = std::ranges::find(nodes, nearest);
-    if (nearest < 0 || found == nodes.end()) continue;
-    Hit hit;
-    hit.facet = facet;
-    const auto local = static_cast<int>(found - nodes.begin());
-    hit.projection.xi = facet_node(mesh_.cell_types[facet], local);
-    hit.projection.weights[static_cast<std::size_t>(local)] = 1.0;
-    hit.projection.foot = positions_[nearest];
-    hit.projection.distance = distance;
-    return hit;
-  }
-  return std::nullopt;
+  return nearest;
+}
+
+std::optional<FacetSearch::Hit> FacetSearch::nearest_node(const Vector3d& point, std::span<const int> own) const {
+  const int nearest = nearest_master_node(point, own);
+  if (nearest < 0) return std::nullopt;
+  Hit hit;
+  hit.facet = facets_of_nodes_.at(nearest).front();
+  const auto nodes = mesh_.cell(hit.facet);
+  const auto local = static_cast<int>(std::ranges::find(nodes, nearest) - nodes.begin());
+  hit.projection.xi = facet_node(mesh_.cell_types[hit.facet], local);
+  hit.projection.from = hit.projection.xi;
+  hit.projection.weights[static_cast<std::size_t>(local)] = 1.0;
+  hit.projection.foot = positions_[nearest];
+  hit.projection.distance = (positions_[nearest] - point).norm();
+  return hit;
 }
 
 std::optional<Projection> FacetSearch::projected(const Vector3d& point, CellType type,
@@ -195,8 +225,14 @@ bool FacetSearch::is_outside(const Projection& projection, double margin) const 
 }
 
 Vector3d FacetSearch::master_normal(const Hit& hit) const {
-  return master_normals_.empty() ? surface_normal(master_choice(zone_), mesh_, hit.facet, hit.projection.xi, positions_)
-                                 : interpolated_normal(mesh_, hit.facet, hit.projection.xi, master_normals_);
+  if (!master_normals_.empty()) return interpolated_normal(mesh_, hit.facet, hit.projection.xi, master_normals_);
+  std::array<Vector3d, max_facet_nodes> points;
+  Box box;
+  const CellType type = mesh_.cell_types[hit.facet];
+  const auto places = places_of(hit.facet, points, box);
+  const Tangents mean =
+      0.5 * (facet_tangents(type, places, hit.projection.from) + facet_tangents(type, places, hit.projection.xi));
+  return surface_normal(master_choice(zone_), mesh_, hit.facet, mean);
 }
 
 bool FacetSearch::opposes(const Hit& hit, const Vector3d& slave_outward) const {

@@ -43,12 +43,13 @@ class FacetSearch {
   /// Whether no master node lies within the zone's pairing distance.
   bool too_far(const Eigen::Vector3d& point) const;
 
-  /// The facet whose nearest place is nearest; facets of the point's own nodes are passed over. Empty where the
-  /// orthogonal projection falls outside that facet by more than the zone's tolerance. Where the zone has a pairing
-  /// direction: the nearest facet among those that a line along it meets, else the one that it passes by the closest.
-  /// A facet that was faced before is kept within its margin, and facing any of them. Of facets that oppose the point's
-  /// normal the nearest counts, if the point does not lie behind it, as behind the far side of a body; it may where it
-  /// lies behind the nearest of all, and so in the body.
+  /// The facet whose nearest place is nearest, of those around the nearest master node (Code_Aster 17.3, R5.03.50); of
+  /// all where another one is not half as far, or the projection falls outside. Facets of the point's own nodes are
+  /// passed over. Empty where the orthogonal projection falls outside that facet by more than the zone's tolerance.
+  /// Where the zone has a pairing direction: the nearest facet among those that a line along it meets, else the one
+  /// that it passes by the closest. A facet that was faced before is kept within its margin, and facing any of them. Of
+  /// facets that oppose the point's normal the nearest counts, if the point does not lie behind it, as behind the far
+  /// side of a body; it may where it lies behind the nearest of all, and so in the body.
   std::optional<Hit> nearest(const Eigen::Vector3d& point, const OwnNodes& own, FacedFacet faced = {}) const;
 
   /// The nearest master node that is none of `own`, on one of its facets. Empty where there is none.
@@ -62,6 +63,7 @@ class FacetSearch {
   Eigen::Vector3d slave_normal(int cell, const Eigen::Vector2d& xi) const;
 
  private:
+  std::unordered_map<int, std::vector<int>> facets_of_nodes() const;
   std::vector<Box> facet_boxes() const;
   std::vector<Box> node_boxes() const;
   std::optional<Projection> projected(const Eigen::Vector3d& point, CellType type,
@@ -70,6 +72,10 @@ class FacetSearch {
                                              Box& box) const;
   enum class Counted : std::uint8_t { all, opposing };
   Hit nearest_facet(const Eigen::Vector3d& point, const OwnNodes& own, Counted counted) const;
+  Hit around_nearest_node(const Eigen::Vector3d& point, const OwnNodes& own) const;
+  Hit nearest_counted(const Eigen::Vector3d& point, const OwnNodes& own) const;
+  /// None of `own`; -1 where there is none.
+  int nearest_master_node(const Eigen::Vector3d& point, std::span<const int> own) const;
   /// Of facet -1 where there is none.
   Hit nearest_faced(const Eigen::Vector3d& point, const OwnNodes& own) const;
   void consider(const Eigen::Vector3d& point, const OwnNodes& own, int facet, Counted counted, Hit& best) const;
@@ -84,6 +90,7 @@ class FacetSearch {
   const Mesh& mesh_;
   Positions positions_;
   std::vector<int> master_nodes_;
+  std::unordered_map<int, std::vector<int>> facets_of_nodes_;  ///< of the master
   BoxTree facets_;
   BoxTree nodes_;
   std::unordered_map<int, Eigen::Vector3d> master_normals_;  ///< of the nodes; empty unless smoothed

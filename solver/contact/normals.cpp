@@ -49,17 +49,12 @@ void require_plane_or_surface(const Mesh& mesh, int cell) {
 
 /// Across a given direction: of a line in space the cross product of its tangent and the direction, else the facet's
 /// own normal less its part along the direction.
-Vector3d normal_across(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, Positions positions,
-                       const Vector3d& direction) {
-  const FacetPoints points = gather(mesh, facet, positions);
+Vector3d normal_across(const Mesh& mesh, int facet, const Tangents& tangents, const Vector3d& direction) {
   Vector3d normal = Vector3d::Zero();
   if (is_line_in_space(mesh, facet)) {
-    const FacetShape shape = facet_shape(mesh.cell_types[facet], xi);
-    Vector3d tangent = Vector3d::Zero();
-    for (std::size_t i = 0; i < points.count; ++i) tangent += shape.gradients[i][0] * points.points[i];
-    normal = tangent.normalized().cross(direction.normalized());
+    normal = Vector3d(tangents.col(0)).normalized().cross(direction.normalized());
   } else {
-    const Vector3d own = facet_normal(mesh.cell_types[facet], points.span(), xi);
+    const Vector3d own = facet_normal(mesh.cell_types[facet], tangents);
     normal = own - own.dot(direction.normalized()) * direction.normalized();
   }
   if (!(normal.norm() > clean_normal_tolerance))
@@ -95,11 +90,6 @@ std::unordered_map<int, Vector3d> nodal_normals(const Mesh& mesh, std::span<cons
   return normals;
 }
 
-Vector3d outward_normal(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, Positions positions) {
-  require_plane_or_surface(mesh, facet);
-  return cleaned_normal(facet_normal(mesh.cell_types[facet], gather(mesh, facet, positions).span(), xi));
-}
-
 Vector3d interpolated_normal(const Mesh& mesh, int facet, const Eigen::Vector2d& xi,
                              const std::unordered_map<int, Vector3d>& normals) {
   const FacetShape shape = facet_shape(mesh.cell_types[facet], xi);
@@ -113,19 +103,25 @@ Vector3d interpolated_normal(const Mesh& mesh, int facet, const Eigen::Vector2d&
   return cleaned_normal(normal.normalized());
 }
 
-Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet, const Eigen::Vector2d& xi,
-                        Positions positions) {
+Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet, const Tangents& tangents) {
   const Vector3d given(choice.vector[0], choice.vector[1], choice.vector[2]);
   switch (choice.rule) {
     case NormalRule::fixed:
       if (!(given.norm() > 0.0)) throw Error("degenerate-facet", "the given normal of a contact surface is null");
       return cleaned_normal(given.normalized());
     case NormalRule::along_y:
-      return normal_across(mesh, facet, xi, positions, given);
+      return normal_across(mesh, facet, tangents, given);
     case NormalRule::automatic:
       break;
   }
-  return outward_normal(mesh, facet, xi, positions);
+  require_plane_or_surface(mesh, facet);
+  return cleaned_normal(facet_normal(mesh.cell_types[facet], tangents));
+}
+
+Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet, const Eigen::Vector2d& xi,
+                        Positions positions) {
+  const FacetPoints points = gather(mesh, facet, positions);
+  return surface_normal(choice, mesh, facet, facet_tangents(mesh.cell_types[facet], points.span(), xi));
 }
 
 Vector3d contact_normal(NormalSide side, const Vector3d& master, const Vector3d& slave) {

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 
 #include "solver/contact/definition.hpp"
+#include "solver/contact/facet.hpp"
 #include "solver/mesh/mesh.hpp"
 
 namespace comma::solver {
@@ -30,17 +31,14 @@ bool has_normal(const NormalChoice& choice, const Mesh& mesh, int facet);
 /// Throws Error `unsupported` for a line in space without a given normal, `degenerate-facet` for a null one.
 Eigen::Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet, const Eigen::Vector2d& xi,
                                Positions positions);
+Eigen::Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet, const Tangents& tangents);
 
 /// Outward unit normal of each node of the cells: the mean of the normals that the cells have there (U4.44.11,
 /// NORMALE).
 std::unordered_map<int, Eigen::Vector3d> nodal_normals(const Mesh& mesh, std::span<const int> cells,
                                                        Positions positions, const NormalChoice& choice = {});
 
-/// Outward unit normal of a facet at a reference point. Throws Error `unsupported` for a line in space,
-/// `degenerate-facet` for a null one.
-Eigen::Vector3d outward_normal(const Mesh& mesh, int facet, const Eigen::Vector2d& xi, Positions positions);
-
-/// The same from the normals of its nodes (U4.44.11, LISSAGE): interpolated by the facet's shape functions, then made
+/// Of a facet from the normals of its nodes (U4.44.11, LISSAGE): interpolated by the facet's shape functions, then made
 /// unit.
 Eigen::Vector3d interpolated_normal(const Mesh& mesh, int facet, const Eigen::Vector2d& xi,
                                     const std::unordered_map<int, Eigen::Vector3d>& normals);

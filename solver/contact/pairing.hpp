@@ -37,8 +37,9 @@ struct ContactPair {
 };
 
 /// One entry a slave node and zone, zones in order, nodes rising: node-to-facet pairing (R5.03.50, section 3). A slave
-/// node takes the facet whose nearest place is nearest; its orthogonal projection may fall outside that facet by the
-/// tolerance, in reference coordinates, and is then brought back on its border. The pairing distance is measured to the
+/// node takes the facet whose nearest place is nearest (see FacetSearch::nearest); its orthogonal projection may fall
+/// outside that facet by the tolerance, in reference coordinates, and is then brought back on its border, where the
+/// normal is that of the mean of the tangents there and at the foot. The pairing distance is measured to the
 /// nearest master node, as Code_Aster does: a node in the middle of a long facet is far from it. With PairingRule::node
 /// it takes the nearest master node, and the mean of the normals there. `time`: at which thicknesses are read.
 /// `before`: what slave nodes faced at the last pairing, if anything is to be kept of it.

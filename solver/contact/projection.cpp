@@ -13,6 +13,9 @@ using Eigen::Vector3d;
 constexpr int max_newton_iterations = 60;
 /// Reference coordinates are of order one: a step below this no longer moves the foot.
 constexpr double step_tolerance = 1e-14;
+constexpr double place_tolerance = 1e-4;
+/// Where plain iterations go so far they are not trusted.
+constexpr double far_from_facet = 5.0;
 /// Beyond this a foot is far outside whatever tolerance a user gives, and only needs to be known as such.
 constexpr double far_outside = 50.0;
 /// A facet that is this thin, as a share of its size squared, is seen from its edge.
@@ -45,28 +48,57 @@ Matrix2d curvature(CellType type, std::span<const Vector3d> points, const Vector
   return 0.5 * (result + result.transpose());
 }
 
-Vector2d newton_step(const Local& local, const Matrix2d& bending, bool is_line) {
+enum class Descent : bool { no, yes };
+
+Vector2d newton_step(const Local& local, const Matrix2d& bending, bool is_line, Descent descent) {
   const Vector2d gradient = local.tangents.transpose() * local.offset;
   Matrix2d metric = local.tangents.transpose() * local.tangents;
   if (is_line) {
     const double hessian = metric(0, 0) + bending(0, 0);
-    return {-gradient[0] / (hessian > 0.1 * metric(0, 0) ? hessian : metric(0, 0)), 0.0};
+    const bool convex = descent == Descent::no || hessian > 0.1 * metric(0, 0);
+    return {-gradient[0] / (convex ? hessian : metric(0, 0)), 0.0};
   }
   const Matrix2d hessian = metric + bending;
   // Away from the foot of a curved facet the distance may not be convex: Gauss-Newton then still goes down.
-  const bool convex = hessian.trace() > 0.0 && hessian.determinant() > 0.01 * metric.determinant();
+  const bool convex =
+      descent == Descent::no || (hessian.trace() > 0.0 && hessian.determinant() > 0.01 * metric.determinant());
   return -(convex ? hessian : metric).inverse() * gradient;
 }
 
-}  // namespace
+bool is_convex(const Local& local, const Matrix2d& bending, bool is_line) {
+  const Matrix2d hessian = local.tangents.transpose() * local.tangents + bending;
+  return is_line ? hessian(0, 0) > 0.0 : hessian.trace() > 0.0 && hessian.determinant() > 0.0;
+}
 
-std::optional<Projection> project(const Vector3d& node, CellType type, std::span<const Vector3d> points) {
-  const bool is_line = dimension(type) == 1;
+/// Where Newton's method ends and where its last step began.
+struct Foot {
+  Vector2d xi, from;
+  bool is_nearest = true;  ///< not a place that is farthest, or a saddle
+};
+
+/// Newton's method as it is, from the centre of the facet, until a step is a ten-thousandth of the place.
+std::optional<Foot> plain_foot(const Vector3d& node, CellType type, std::span<const Vector3d> points) {
   Vector2d xi = facet_centre(type);
-  bool converged = false;
-  for (int iteration = 0; iteration < max_newton_iterations && !converged; ++iteration) {
+  for (int iteration = 0; iteration < max_newton_iterations && xi.norm() < far_from_facet; ++iteration) {
     const Local local = evaluate(node, type, points, xi);
-    Vector2d step = newton_step(local, curvature(type, points, xi, local.offset), is_line);
+    const Matrix2d bending = curvature(type, points, xi, local.offset);
+    const Vector2d step = newton_step(local, bending, dimension(type) == 1, Descent::no);
+    if (!step.allFinite()) return std::nullopt;
+    const Vector2d from = xi;
+    xi += step;
+    const double size = xi.norm();
+    if (step.norm() <= place_tolerance * (size > 0.0 ? size : 1.0))
+      return Foot{xi, from, is_convex(local, bending, dimension(type) == 1)};
+  }
+  return std::nullopt;
+}
+
+/// Going down from the centre of the facet, however bent it is.
+std::optional<Foot> safe_foot(const Vector3d& node, CellType type, std::span<const Vector3d> points) {
+  Vector2d xi = facet_centre(type);
+  for (int iteration = 0; iteration < max_newton_iterations; ++iteration) {
+    const Local local = evaluate(node, type, points, xi);
+    Vector2d step = newton_step(local, curvature(type, points, xi, local.offset), dimension(type) == 1, Descent::yes);
     if (!step.allFinite()) break;
     const double before = local.offset.squaredNorm();
     for (int halving = 0; halving < 8; ++halving) {
@@ -74,20 +106,40 @@ std::optional<Projection> project(const Vector3d& node, CellType type, std::span
       step *= 0.5;
     }
     xi += step;
-    converged = step.norm() <= step_tolerance * (1.0 + xi.norm()) || xi.norm() > far_outside;
+    const bool rests = step.norm() <= step_tolerance * (1.0 + xi.norm()) || xi.norm() > far_outside;
     // Rounding in large coordinates can keep the step from getting smaller still.
-    converged = converged || (iteration > 20 && step.norm() < 1e-9);
+    if (rests || (iteration > 20 && step.norm() < 1e-9)) return Foot{xi, xi};
   }
-  if (!converged) return std::nullopt;
+  return std::nullopt;
+}
+
+std::optional<Projection> brought_back(const std::optional<Foot>& foot, const Vector3d& node, CellType type,
+                                       std::span<const Vector3d> points) {
+  if (!foot) return std::nullopt;
   Projection projection;
-  projection.outside = outside_distance(type, xi);
-  projection.xi = bring_back(type, xi);
+  projection.outside = outside_distance(type, foot->xi);
+  projection.xi = bring_back(type, foot->xi);
+  projection.from = foot->from;
   const FacetShape shape = facet_shape(type, projection.xi);
   projection.weights = shape.values;
   projection.foot.setZero();
   for (std::size_t i = 0; i < points.size(); ++i) projection.foot += shape.values[i] * points[i];
   projection.distance = (projection.foot - node).norm();
   return projection;
+}
+
+}  // namespace
+
+std::optional<Projection> project(const Vector3d& node, CellType type, std::span<const Vector3d> points) {
+  const std::optional<Foot> plain = plain_foot(node, type, points);
+  if (plain && plain->is_nearest) return brought_back(plain, node, type, points);
+  const std::optional<Foot> safe = safe_foot(node, type, points);
+  const bool faces = safe && outside_distance(type, safe->xi) == 0.0;
+  return brought_back(plain && !faces ? plain : safe, node, type, points);
+}
+
+std::optional<Projection> project_exactly(const Vector3d& node, CellType type, std::span<const Vector3d> points) {
+  return brought_back(safe_foot(node, type, points), node, type, points);
 }
 
 /// Seen along the direction, the place that is asked for is the foot of the node.

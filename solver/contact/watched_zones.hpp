@@ -9,8 +9,8 @@
 
 namespace comma::solver {
 
-/// The pairs of watched zones as the surfaces stand now, by their number among all pairs of the definition. Their gaps
-/// are gap_at(), less thicknesses, as where contact is enforced. Throws what pair_surfaces throws.
+/// The pairs of watched zones with the surfaces at given places, by their number among all pairs of the definition.
+/// Their gaps are gap_at(), less thicknesses, as where contact is enforced. Throws what pair_surfaces throws.
 std::map<std::size_t, ContactPair> watched_pairs(const ContactDefinition& contact, const Mesh& mesh, Positions now,
                                                  double instant);
 

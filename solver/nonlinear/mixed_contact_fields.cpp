@@ -208,7 +208,7 @@ void add_multipliers(const SolvedContact& contact, NodalField& displacements) {
   displacements.values = std::move(values);
 }
 
-NodalField contact_state(const SolvedContact& contact, Positions positions, double instant) {
+NodalField contact_state(const SolvedContact& contact, Positions positions, Positions paired_at, double instant) {
   std::vector<NodeContact> contacts;
   std::map<Key, std::size_t> by_node;
   for (std::size_t p = 0; p < contact.points().size(); ++p) {
@@ -226,7 +226,7 @@ NodalField contact_state(const SolvedContact& contact, Positions positions, doub
     }
   }
   add_forces_between_nodes(contact, by_node, contacts);
-  add_nodes_without_contact(contact, positions, instant, contacts);
+  add_nodes_without_contact(contact, paired_at, instant, contacts);
   return contact_field(contacts, contact.mesh.node_count(), positions);
 }
 

@@ -195,7 +195,8 @@ void StaticRun::append(ResultStep step) {
 }
 
 NodalField StaticRun::contact_state(double instant) const {
-  if (mixed_) return comma::solver::contact_state(mixed_->solved(now_.state.u), positions(), instant);
+  const std::vector<Vector3d> paired_at = positions_at(now_.reference, mesh_, dofs_);
+  if (mixed_) return comma::solver::contact_state(mixed_->solved(now_.state.u), positions(), paired_at, instant);
   const Eigen::VectorXd slack = now_.conditions.full.bounds - now_.conditions.full.rows * now_.state.u;
   std::vector<double> gaps(now_.conditions.pairs.size(), absent);
   for (std::size_t row = 0; row < now_.conditions.row_slots.size(); ++row) {
@@ -204,9 +205,9 @@ NodalField StaticRun::contact_state(double instant) const {
   }
   const std::vector<Vector3d> now = positions();
   std::vector<ContactPair> pairs = now_.conditions.pairs;
-  for (const auto& [k, pair] : watched_pairs(*problem_.contact, mesh_, now, instant)) {
+  for (const auto& [k, pair] : watched_pairs(*problem_.contact, mesh_, paired_at, instant)) {
     pairs[k] = pair;
-    gaps[k] = gap_at(pair, mesh_, now);
+    gaps[k] = gap_at(pair, mesh_, paired_at);
   }
   return contact_field(pairs, gaps, now_.state.multipliers, mesh_.node_count(), now);
 }

@@ -175,3 +175,57 @@ TEST_CASE("What elements add to both sides is taken off the gap") {
   CHECK(pairs[0].thickness == exactly(0.2 + 0.05));
   CHECK(pairs[1].thickness == exactly(0.07));
 }
+
+TEST_CASE("Beside a curved facet the normal is that of the mean of its tangents at the foot and at its end") {
+  // Gaps that Code_Aster 17.3 has for these surfaces (CONT_NOEU, JEU), outside and inside the facet.
+  struct Known {
+    double x, gap;
+  };
+  for (const auto& [x, gap] : {Known{1.7, 1.196694861849}, Known{1.5, 1.115117454314}, Known{0.9, 0.9189985224781}}) {
+    Mesh mesh;
+    mesh.dimension = 2;
+    mesh.nodes = {{-1, 0, 0}, {1, 0, 0}, {0, -0.2, 0}, {x, -1, 0}, {x + 1, -1, 0}};
+    ContactDefinition definition;
+    definition.zones.emplace_back();
+    definition.zones[0].master_cells = {mesh.add_cell(CellType::seg3, std::vector<int>{0, 1, 2})};
+    definition.zones[0].slave_cells = {mesh.add_cell(CellType::seg2, std::vector<int>{4, 3})};
+    std::vector<Vector3d> positions;
+    for (const Point& p : mesh.nodes) positions.emplace_back(p[0], p[1], p[2]);
+    const ContactPair pair = pair_surfaces(definition, mesh, positions)[0];
+    REQUIRE(pair.slave == 3);
+    CHECK(pair.normal.dot(positions[3] - pair.foot) == Approx(gap).epsilon(1e-11));
+  }
+}
+
+TEST_CASE("A slave node faces a facet around the nearest master node, unless another is much nearer") {
+  // A ridge of a long and a short facet, (-4, 0)-(0, 0)-(0.3, 0.6), normals up, and a slave node whose nearest node is
+  // the top of the short one.
+  Mesh mesh;
+  mesh.dimension = 2;
+  mesh.nodes = {{-4, 0, 0}, {0, 0, 0}, {0.3, 0.6, 0}, {-0.6, 0.75, 0}, {-3, 3, 0}};
+  ContactDefinition definition;
+  definition.zones.emplace_back();
+  definition.zones[0].master_cells = {mesh.add_cell(CellType::seg2, std::vector<int>{1, 0}),
+                                      mesh.add_cell(CellType::seg2, std::vector<int>{2, 1})};
+  definition.zones[0].slave_cells = {mesh.add_cell(CellType::seg2, std::vector<int>{3, 4})};
+  std::vector<Vector3d> positions;
+  for (const Point& p : mesh.nodes) positions.emplace_back(p[0], p[1], p[2]);
+  CHECK(pair_surfaces(definition, mesh, positions)[0].facet == 1);  // 0.87 away, the long one 0.75
+  // Apart from the ridge: a short facet whose nodes are near, a long one whose ends are far.
+  const auto faced = [&](double height) {
+    std::vector<Vector3d> places = positions;
+    places[1] = {4, 0, 0};
+    Mesh apart = mesh;
+    apart.nodes.push_back({-0.6, height, 0});
+    apart.nodes.push_back({0.6, height, 0});
+    places.emplace_back(-0.6, height, 0);
+    places.emplace_back(0.6, height, 0);
+    ContactDefinition zone = definition;
+    zone.zones[0].master_cells = {apart.add_cell(CellType::seg2, std::vector<int>{1, 0}),
+                                  apart.add_cell(CellType::seg2, std::vector<int>{6, 5})};
+    places[3] = {0, 0.5, 0};
+    return pair_surfaces(zone, apart, places)[0].facet == zone.zones[0].master_cells[1];
+  };
+  CHECK(faced(-0.3));
+  CHECK_FALSE(faced(-0.7));
+}

@@ -12,6 +12,13 @@ using namespace comma::solver;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+namespace {
+
+/// What Newton's method leaves that stops at a step of a ten-thousandth, as on a place: its square.
+constexpr double place_accuracy = 1e-7;
+
+}  // namespace
+
 TEST_CASE("On a segment: foot, weights, distance, and how far outside") {
   const std::vector<Vector3d> segment = {{0, 0, 0}, {4, 0, 0}};
   const auto inside = project({1, 3, 0}, CellType::seg2, segment);
@@ -35,7 +42,7 @@ TEST_CASE("On a parabola the offset is orthogonal to the tangent") {
     const auto projection = project(node, CellType::seg3, arc);
     REQUIRE(projection);
     const auto tangents = facet_tangents(CellType::seg3, arc, projection->xi);
-    CHECK(std::abs(tangents.col(0).dot(projection->foot - node)) < 1e-12);
+    CHECK(std::abs(tangents.col(0).dot(projection->foot - node)) < place_accuracy);
   }
 }
 
@@ -56,8 +63,7 @@ TEST_CASE("On warped and curved faces a lifted point comes back to where it was 
       for (std::size_t i = 0; i < points.size(); ++i) foot += shape.values[i] * points[i];
       const auto projection = project(foot + 0.2 * facet_normal(type, points, at), type, points);
       REQUIRE(projection);
-      // Coordinates of 100 leave twelve digits of a unit.
-      CHECK((projection->xi - at).norm() < 1e-10);
+      CHECK((projection->xi - at).norm() < place_accuracy);
       CHECK(projection->distance == Approx(0.2).epsilon(1e-10));
     }
   }
@@ -79,5 +85,18 @@ TEST_CASE("Along a direction a point meets a facet where the line through it doe
   const Vector3d inside = 0.25 * 0.75 * (warped[0] + warped[2]) + 0.75 * 0.75 * warped[1] + 0.25 * 0.25 * warped[3];
   const auto found = project_along(direction, inside + 1.7 * direction, CellType::quad4, warped);
   REQUIRE(found);
-  CHECK((found->foot - inside).norm() < 1e-12);
+  CHECK((found->foot - inside).norm() < place_accuracy);
+}
+
+TEST_CASE("Newton's method on the distance stops a ten-thousandth of the place before the foot, and may end farthest") {
+  const std::vector<Vector3d> shallow = {{-1, 0, 0}, {1, 0, 0}, {0, -0.2, 0}};
+  const auto beside = project({0.9, -1, 0}, CellType::seg3, shallow);
+  REQUIRE(beside);
+  CHECK(std::abs(beside->from[0] - beside->xi[0]) == Approx(3.569e-5).epsilon(1e-3));
+  // A steep arc seen from its inner side: from the middle Newton's method goes to the place that is farthest, outside.
+  const std::vector<Vector3d> steep = {{-0.0169, 32.9268, 0}, {0.08997, 32.1410, 0}, {0.0473, 32.3782, 0}};
+  const auto farthest = project({1.30885, 33.53618, 0}, CellType::seg3, steep);
+  REQUIRE(farthest);
+  CHECK(farthest->outside == Approx(0.18423).epsilon(1e-4));
+  CHECK(farthest->xi[0] == 1.0);
 }
