@@ -16,6 +16,7 @@
 #include "commands/model/parts_of_model.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/fields/discretisation.hpp"
 #include "solver/fields/energies.hpp"
 #include "solver/fields/external_work.hpp"
 #include "solver/fields/field_algebra.hpp"
@@ -52,17 +53,28 @@ ResultConcept energy_source(const Call& call) {
   return source;
 }
 
-// What the energies of beams and plates among the cells are made of.
+// What the elastic energy of plates among the cells is made of, 0 where there are none.
 void add_parts(Row& row, const solver::ElementField& energies, std::span<const int> cells) {
-  for (int component = 1; component < static_cast<int>(energies.components.size()); ++component) {
-    const bool is_known = std::ranges::any_of(
-        cells, [&](int cell) { return energies.points(cell) > 0 && !std::isnan(energies.at(cell, 0, component)); });
-    row.emplace_back(energies.components[static_cast<std::size_t>(component)],
-                     is_known ? Cell(solver::sum_over_cells(energies, component, cells)) : Cell());
+  for (const char* name : {"MEMBRANE", "FLEXION", "CISAILLE", "COUPL_MF"}) {
+    const auto found = std::ranges::find(energies.components, name);
+    const auto component = static_cast<int>(found - energies.components.begin());
+    row.emplace_back(name,
+                     found == energies.components.end() ? 0.0 : solver::sum_over_cells(energies, component, cells));
   }
 }
 
-// Totals over parts, and what percentage of the whole model's energy each has.
+// What percentages refer to: all cells that the occurrences name, or those of a field that the result has already.
+double reference_energy(const Call& call, const char* keyword, const solver::ElementField& energies, bool is_stored,
+                        const solver::Mesh& mesh) {
+  if (is_stored) return solver::sum_over_cells(energies, 0);
+  std::set<int> named;
+  for (const Keywords& occurrence : call.factors(keyword))
+    for (const Part& part : parts_of(call, occurrence, mesh)) named.insert(part.cells.begin(), part.cells.end());
+  const std::vector<int> cells(named.begin(), named.end());
+  return solver::sum_over_cells(energies, 0, std::span<const int>(cells));
+}
+
+// Totals over parts: with what elastic energy is made of, potential energy with its percentage.
 void list_energies(Table& table, const Call& call, interpreter::Diagnostics& diagnostics, const char* keyword,
                    const char* field) {
   const ResultConcept source = energy_source(call);
@@ -71,15 +83,21 @@ void list_energies(Table& table, const Call& call, interpreter::Diagnostics& dia
   for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
     const auto index = static_cast<std::size_t>(chosen - source.result.steps.data());
     const auto energies = std::get<solver::ElementField>(computation.compute(field, index));
-    const double whole = solver::sum_over_cells(energies, 0);
+    const bool is_elastic = std::string_view(keyword) == "ENER_ELAS";
+    const double whole =
+        reference_energy(call, keyword, energies, chosen->fields.contains(field), source.result.mesh());
     for (const Keywords& occurrence : call.factors(keyword)) {
-      for (const Part& part : parts_of(call, occurrence, source.result.mesh())) {
+      for (const Part& part : is_elastic ? parts_and_union(call, occurrence, source.result.mesh())
+                                         : parts_of(call, occurrence, source.result.mesh())) {
         const double total = solver::sum_over_cells(energies, 0, std::span<const int>(part.cells));
         Row row = {{"NUME_ORDRE", static_cast<std::int64_t>(chosen->order)}, {"INST", chosen->instant}};
         const Row place = place_columns(part);
         row.insert(row.end(), place.begin(), place.end());
-        row.insert(row.end(), {{"TOTALE", total}, {"POUR_CENT", whole != 0.0 ? 100.0 * total / whole : 0.0}});
-        add_parts(row, energies, part.cells);
+        row.emplace_back("TOTALE", total);
+        if (is_elastic)
+          add_parts(row, energies, part.cells);
+        else
+          row.emplace_back("POUR_CENT", whole != 0.0 ? 100.0 * total / whole : 0.0);
         table.add_row(row);
       }
     }
@@ -139,8 +157,11 @@ solver::StaticProblem named_problem(const Call& call) {
 void add_inertia(Row& row, const Eigen::Matrix3d& inertia, const char* ending) {
   constexpr std::pair<const char*, std::pair<int, int>> entries[] = {{"IX", {0, 0}},  {"IY", {1, 1}},  {"IZ", {2, 2}},
                                                                      {"IXY", {0, 1}}, {"IXZ", {0, 2}}, {"IYZ", {1, 2}}};
+  // Products of inertia are integrals of xy, xz and yz, which the tensor has with a minus sign.
   for (const auto& [name, place] : entries)
-    row.emplace_back(std::string(name) + ending, inertia(place.first, place.second));
+    row.emplace_back(std::string(name) + ending, place.first == place.second
+                                                     ? inertia(place.first, place.second)
+                                                     : 0.0 - inertia(place.first, place.second));
 }
 
 void add_principal_inertia(Row& row, const solver::PrincipalInertia& principal) {
@@ -192,7 +213,7 @@ void list_masses(Table& table, const Call& call, Context& context) {
   const solver::FieldInput input{model, *problem.materials, *problem.properties, state};
   std::set<int> counted;
   for (const Keywords& occurrence : call.factors("MASS_INER")) {
-    for (const Part& part : parts_of(call, occurrence, *problem.model->mesh)) {
+    for (const Part& part : parts_and_union(call, occurrence, *problem.model->mesh)) {
       counted.insert(part.cells.begin(), part.cells.end());
       const solver::MassInertia found = solver::mass_inertia(input, std::span<const int>(part.cells));
       Row row = place_columns(part);
@@ -200,8 +221,11 @@ void list_masses(Table& table, const Call& call, Context& context) {
       for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("CDG_{}", "XYZ"[i]), found.centre[i]);
       add_inertia(row, found.inertia, "_G");
       add_principal_inertia(row, solver::principal_inertia(found.inertia));
-      if (occurrence.has("ORIG_INER"))
-        add_inertia(row, solver::inertia_about(found, inertia_origin(occurrence.reals("ORIG_INER"))), "_P");
+      if (occurrence.has("ORIG_INER")) {
+        const Eigen::Vector3d origin = inertia_origin(occurrence.reals("ORIG_INER"));
+        for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("{}_P", "XYZ"[i]), origin[i]);
+        add_inertia(row, solver::inertia_about(found, origin), "_P");
+      }
       table.add_row(row);
     }
   }
@@ -225,7 +249,13 @@ Integrals integrals_of(const Keywords& occurrence, const FieldSource& source, co
                           "POST_ELEM: what is integrated already has one value a cell, and this field has others",
                           occurrence.span_of("DEJA_INTEGRE"), "leave out DEJA_INTEGRE");
   }
-  return {summed ? field : solver::integrate_cells(model, field), solver::cell_volumes(model)};
+  const solver::ElementField volumes = solver::cell_volumes(model);
+  // What has its values at the nodes of cells counts there as its mean.
+  const bool as_mean = on_cells != nullptr && on_cells->support == solver::Support::element_node;
+  if (summed) return {field, volumes};
+  return {solver::integrate_cells(
+              model, as_mean ? solver::brought_to(model, source.field, solver::Support::cell, false) : field),
+          volumes};
 }
 
 // What lies at nodes is known on the skin of the model too.
@@ -263,9 +293,10 @@ void add_integrals(Table& table, const Call& call, const Keywords& occurrence, c
                    const solver::Model& model, interpreter::Diagnostics& diagnostics) {
   const bool summed = occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
   const Integrals inside = integrals_of(occurrence, source, model);
-  for (Part& part : parts_of(call, occurrence, source.mesh)) {
+  for (Part& part : parts_and_union(call, occurrence, source.mesh)) {
     keep_dimension(part, source.mesh, occurrence.text("TYPE_MAILLE"));
-    if (!summed) warn_of_cells_left_out("INTEGRALE", occurrence, part, model, diagnostics);
+    if (!summed && part.name != "UNION_GROUP_MA")
+      warn_of_cells_left_out("INTEGRALE", occurrence, part, model, diagnostics);
     std::vector<int> skin;
     std::ranges::copy_if(part.cells, std::back_inserter(skin), [&](int cell) { return model.is_skin(cell); });
     const auto lost = std::ranges::count_if(part.cells, [&](int cell) {
@@ -290,17 +321,18 @@ void add_integrals(Table& table, const Call& call, const Keywords& occurrence, c
                             occurrence.span, "see that TYPE_MAILLE is the dimension of the model's cells");
     }
     Row row = source.columns;
-    const Row place = place_columns(part);
-    row.insert(row.end(), place.begin(), place.end());
+    if (row.front().first == "RESU") row.erase(row.begin());
     const double volume = solver::sum_over_cells(integrals.of_one, 0, std::span<const int>(part.cells));
-    if (!summed) row.emplace_back("VOL", volume);
+    row.emplace_back("VOL", volume);
+    const Row place = named_place(part);
+    row.insert(row.end(), place.begin(), place.end());
     for (const std::string& name : occurrence.texts("NOM_CMP")) {
       require_component(occurrence, source, part, name);
       const double total =
           solver::sum_over_cells(integrals.of_field, component_of(occurrence, integrals.of_field.components, name),
                                  std::span<const int>(part.cells));
       row.emplace_back("INTE_" + name, total);
-      if (!summed) row.emplace_back("MOYE_" + name, total / volume);
+      row.emplace_back("MOYE_" + name, total / volume);
     }
     table.add_row(row);
   }
@@ -319,10 +351,12 @@ void list_integrals(Table& table, const Call& call, interpreter::Diagnostics& di
 void add_extremes(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source) {
   const auto& components = solver::components_of(source.field);
   const bool nodal = std::holds_alternative<solver::NodalField>(source.field);
-  for (const Part& part : parts_of(call, occurrence, source.mesh)) {
+  for (const Part& part : parts_and_union(call, occurrence, source.mesh)) {
     const std::vector<int> places = nodal ? source.mesh.nodes_of_cells(part.cells) : part.cells;
     Row row = source.columns;
-    const Row place = place_columns(part);
+    if (row.front().first == "RESU") row.erase(row.begin());
+    row.front().first = "CHAMP_GD";
+    const Row place = named_place(part);
     row.insert(row.end(), place.begin(), place.end());
     for (const std::string& name : occurrence.texts("NOM_CMP")) {
       const auto found =

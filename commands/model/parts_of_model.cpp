@@ -48,6 +48,20 @@ std::vector<Part> parts_of(const Call& call, const Keywords& occurrence, const s
   return parts;
 }
 
+std::vector<Part> parts_and_union(const Call& call, const Keywords& occurrence, const solver::Mesh& mesh) {
+  std::vector<Part> parts = parts_of(call, occurrence, mesh);
+  if (occurrence.texts("GROUP_MA").size() < 2) return parts;
+  Part all{"UNION_GROUP_MA", "GROUP_MA", {}};
+  std::set<int> seen;
+  for (const Part& part : parts)
+    for (const int cell : part.cells)
+      if (part.kind == "GROUP_MA" && seen.insert(cell).second) all.cells.push_back(cell);
+  parts.push_back(std::move(all));
+  return parts;
+}
+
+Row named_place(const Part& part) { return {{part.kind, part.kind == "TOUT" ? "TOUT" : part.name}}; }
+
 Row place_columns(const Part& part) { return {{"LIEU", part.name}, {"ENTITE", part.kind}}; }
 
 void keep_dimension(Part& part, const solver::Mesh& mesh, const std::string& dimension) {

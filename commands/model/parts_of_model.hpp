@@ -25,8 +25,16 @@ struct Part {
 std::vector<Part> parts_of(const interpreter::Call& call, const interpreter::Keywords& occurrence,
                            const solver::Mesh& mesh);
 
+/// The same, and after several groups of an occurrence what they make together, UNION_GROUP_MA, a cell of two groups
+/// once.
+std::vector<Part> parts_and_union(const interpreter::Call& call, const interpreter::Keywords& occurrence,
+                                  const solver::Mesh& mesh);
+
 /// LIEU and ENTITE.
 Row place_columns(const Part& part);
+
+/// TOUT, GROUP_MA or MAILLE, under its own name.
+Row named_place(const Part& part);
 
 /// Takes away the cells of another dimension than "1D", "2D" or "3D" says.
 void keep_dimension(Part& part, const solver::Mesh& mesh, const std::string& dimension);

@@ -14,6 +14,16 @@ std::vector<ValueVolume> value_volumes(const Model& model, const ElementField& f
   for (const int cell : cells) {
     if (!points.covers(cell) || field.points(cell) == 0) continue;
     const auto& samples = points.samples(cell);
+    // At the nodes of a cell each value stands for an equal share of its volume.
+    if (field.support == Support::element_node) {
+      double volume = 0.0;
+      for (const auto& sample : samples) volume += points.locate(cell, sample).weight;
+      for (int node = 0; node < field.points(cell); ++node) {
+        const double value = field.at(cell, node, component);
+        if (!std::isnan(value)) pieces.push_back({value, volume / field.points(cell)});
+      }
+      continue;
+    }
     for (std::size_t g = 0; g < samples.size(); ++g) {
       const double value = field.at(cell, field.support == Support::cell ? 0 : static_cast<int>(g), component);
       if (!std::isnan(value)) pieces.push_back({value, points.locate(cell, samples[g]).weight});

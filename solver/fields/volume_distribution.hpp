@@ -15,7 +15,8 @@ struct ValueVolume {
   double volume = 0.0;
 };
 
-/// One a Gauss point of the continuum cells among `cells` that carry the component of a field at Gauss points or by
+/// One a Gauss point, or node with an equal share of the volume, of the continuum cells among `cells` that carry the
+/// component of a field at Gauss points, at the nodes of cells or by
 /// cell.
 std::vector<ValueVolume> value_volumes(const Model& model, const ElementField& field, int component,
                                        std::span<const int> cells);
