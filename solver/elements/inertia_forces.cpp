@@ -33,7 +33,8 @@ void add_continuum(const ForceInput& input, int cell, const AccelerationField& f
   const int components = dimension(type);
   const NodeColumns places = node_places(mesh, cell);
   NodeColumns nodal = NodeColumns::Zero(3, places.cols());
-  for (const CellSample& sample : samples.of(type, CellRole::body)) {
+  // Code_Aster integrates them where stresses are: rotation on the one point of a TETRA4.
+  for (const CellSample& sample : samples.of_stiffness(type, input.model.formulations[cell])) {
     const CellPoint point = locate(places, sample);
     const double mass = per_volume * sample.weight * point.measure(components) * (axisymmetric ? point.at[0] : 1.0);
     nodal += (mass * field.at(point.at)).lazyProduct(sample.values.transpose());
@@ -44,7 +45,7 @@ void add_continuum(const ForceInput& input, int cell, const AccelerationField& f
   }
 }
 
-/// On the surface of the mesh, with the moments of a middle that lies apart from it.
+/// On the surface of the mesh, where Code_Aster has the mass of a plate whose middle lies apart from it too.
 void add_plate(const ForceInput& input, int cell, const AccelerationField& field, double factor, CellSamples& samples,
                std::span<long double> forces) {
   const Mesh& mesh = *input.model.mesh;
@@ -57,15 +58,10 @@ void add_plate(const ForceInput& input, int cell, const AccelerationField& field
   const NodeColumns places = node_places(mesh, cell);
   for (const CellSample& sample : samples.of(mesh.cell_types[cell], CellRole::body)) {
     const CellPoint point = locate(places, sample);
-    const Eigen::Vector3d arm = section->second.offset * point.normal(2).normalized();
-    const Eigen::Vector3d force = per_area * sample.weight * point.measure(2) * field.at(point.at + arm);
-    const Eigen::Vector3d moment = arm.cross(force);
+    const Eigen::Vector3d force = per_area * sample.weight * point.measure(2) * field.at(point.at);
     for (Eigen::Index a = 0; a < places.cols(); ++a) {
       const int first = input.dofs.dof(mesh.cell(cell)[static_cast<std::size_t>(a)], Component::dx);
-      for (int c = 0; c < 3; ++c) {
-        forces[static_cast<std::size_t>(first + c)] += sample.values[a] * force[c];
-        forces[static_cast<std::size_t>(first + 3 + c)] += sample.values[a] * moment[c];
-      }
+      for (int c = 0; c < 3; ++c) forces[static_cast<std::size_t>(first + c)] += sample.values[a] * force[c];
     }
   }
 }

@@ -37,7 +37,8 @@ Matrix6 rigid_motion(const Point& at) {
 /// Integrals of density times 1, x and x x^T.
 class Moments {
  public:
-  explicit Moments(const FieldInput& input) : input_(input), points_(input.model, PointFamily::mass) {}
+  explicit Moments(const FieldInput& input)
+      : input_(input), solid_points_(input.model, PointFamily::stiffness), points_(input.model, PointFamily::mass) {}
 
   void add(int cell) {
     if (points_.covers(cell)) return add_continuum(cell);
@@ -71,20 +72,22 @@ class Moments {
   void add_continuum(int cell) {
     const bool axisymmetric = is_axisymmetric(input_.model.formulations[cell]);
     const CellMaterial material = material_of(input_, cell);
-    const auto& samples = points_.samples(cell);
+    // Code_Aster has the mass of solids where their stresses are, on the one point of a TETRA4.
+    ContinuumPoints& points = dimension(input_.model.mesh->cell_types[cell]) == 3 ? solid_points_ : points_;
+    const auto& samples = points.samples(cell);
     for (std::size_t g = 0; g < samples.size(); ++g) {
-      const ContinuumPoint point = points_.locate(cell, samples[g]);
-      const MaterialPoint at = points_.material_point(cell, input_.state, samples[g], point.at, static_cast<int>(g));
+      const ContinuumPoint point = points.locate(cell, samples[g]);
+      const MaterialPoint at = points.material_point(cell, input_.state, samples[g], point.at, static_cast<int>(g));
       const double mass = point.weight * density(*material.elasticity, at);
       if (!axisymmetric) {
         add_mass(mass, point.at, point.at * point.at.transpose());
         continue;
       }
-      // A ring about Y: its mean x x^T spreads r^2 over X and Z alike.
+      // A ring, whose axis Code_Aster calls Z here: its mean x x^T spreads r^2 over X and Y alike.
       const double r = point.at[0];
-      const double y = point.at[1];
-      add_mass(2 * std::numbers::pi * mass, Eigen::Vector3d(0, y, 0),
-               Eigen::Vector3d(0.5 * r * r, y * y, 0.5 * r * r).asDiagonal());
+      const double z = point.at[1];
+      add_mass(2 * std::numbers::pi * mass, Eigen::Vector3d(0, 0, z),
+               Eigen::Vector3d(0.5 * r * r, 0.5 * r * r, z * z).asDiagonal());
     }
   }
 
@@ -138,10 +141,11 @@ class Moments {
       MaterialPoint at;
       input_.state.sample(cell, nodes, {shape.data(), static_cast<std::size_t>(shape.size())},
                           VariableState::all_points, at);
-      const double mass =
-          point.weight * normal.norm() * found->second.thickness * density(*material_of(input_, cell).elasticity, at);
-      const Eigen::Vector3d x = places * shape + found->second.offset * normal.normalized();
-      add_mass(mass, x, x * x.transpose());
+      const double thickness = found->second.thickness;
+      const double mass = point.weight * normal.norm() * thickness * density(*material_of(input_, cell).elasticity, at);
+      // Code_Aster has the middle on the surface of the mesh, wherever it lies.
+      const Eigen::Vector3d x = places * shape, across = normal.normalized();
+      add_mass(mass, x, x * x.transpose() + thickness * thickness / 12.0 * across * across.transpose());
     }
   }
 
@@ -180,7 +184,7 @@ class Moments {
   }
 
   const FieldInput& input_;
-  ContinuumPoints points_;
+  ContinuumPoints solid_points_, points_;
   double mass_ = 0.0;
   Eigen::Vector3d first_ = Eigen::Vector3d::Zero();
   Eigen::Matrix3d second_ = Eigen::Matrix3d::Zero();

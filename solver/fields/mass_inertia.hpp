@@ -29,9 +29,10 @@ PrincipalInertia principal_inertia(const Eigen::Matrix3d& inertia);
 Eigen::Matrix3d inertia_about(const MassInertia& body, const Eigen::Vector3d& point);
 
 /// Over the cells (all when none are given): continua, bars, beams and plates; beams with the inertia of their
-/// sections, plates as their middle surface, whose mass per area is density times thickness. A plane body has a
-/// thickness of 1; an axisymmetric one counts whole, all the way round Y. Mass 0 leaves the centre at the origin. Skin
-/// cells and discrete elements take no part. Throws Error `missing-material`, `missing-properties` naming a cell.
+/// sections, plates with that of their thickness, as if their middle lay on the surface of the mesh. A plane body has a
+/// thickness of 1; an axisymmetric one counts whole, all the way round its axis, which is Z here. Mass 0 leaves the
+/// centre at the origin. Skin cells and discrete elements take no part. Throws Error `missing-material`,
+/// `missing-properties` naming a cell.
 MassInertia mass_inertia(const FieldInput& input, std::optional<std::span<const int>> cells = {});
 
 }  // namespace comma::solver
