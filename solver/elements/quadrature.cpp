@@ -189,18 +189,18 @@ Quadrature pyramid5() {
 
 /// The one symmetric rule of degree 4 with 10 points inside and positive weights (Witherden, Vincent, "On the
 /// identification of symmetric quadrature rules for finite element methods", Comput. Math. Appl. 69, 2015): two points
-/// on the axis, four towards the lateral faces, four towards the lateral edges.
+/// on the axis, four towards the lateral faces, four towards the lateral edges, in Code_Aster's order.
 Quadrature pyramid10() {
   const double lower = 0.1251369531087467, lower_weight = 0.13792226839303498;
   const double upper = 0.67723278888613725, upper_weight = 0.07582792211376134;
   const double face = 0.65058155639823279, face_z = 0.32238414957821382, face_weight = 0.07088305859288356;
   const double edge = 0.65796699712168982, edge_z = 0.039248283898815378, edge_weight = 0.04234606044708402;
   const double half = 0.5 * face;
-  return {{{0, 0, lower}, lower_weight},         {{0, 0, upper}, upper_weight},
-          {{half, half, face_z}, face_weight},   {{-half, half, face_z}, face_weight},
-          {{-half, -half, face_z}, face_weight}, {{half, -half, face_z}, face_weight},
-          {{edge, 0, edge_z}, edge_weight},      {{0, edge, edge_z}, edge_weight},
-          {{-edge, 0, edge_z}, edge_weight},     {{0, -edge, edge_z}, edge_weight}};
+  return {{{0, 0, upper}, upper_weight},         {{0, 0, lower}, lower_weight},
+          {{-half, -half, face_z}, face_weight}, {{-half, half, face_z}, face_weight},
+          {{half, half, face_z}, face_weight},   {{half, -half, face_z}, face_weight},
+          {{-edge, 0, edge_z}, edge_weight},     {{0, -edge, edge_z}, edge_weight},
+          {{0, edge, edge_z}, edge_weight},      {{edge, 0, edge_z}, edge_weight}};
 }
 
 /// Gauss points of the cube, collapsed on the apex and turned by 45 degrees; the height has the Gauss-Jacobi weight
