@@ -345,8 +345,9 @@ Relations glued_nodes(const Keywords& keywords, const LoadedModel& target, const
   const bool is_moved = keywords.given("TRAN") || keywords.given("ANGL_NAUT");
   if (keywords.text("TYPE_RACCORD") != "MASSIF") {
     require_solids(keywords);
-    return solver::shell_embedding_relations(target.mesh, target.dofs,
-                                             solver::embed(target.mesh, nodes, hosts, farthest), origin);
+    const auto relations_to =
+        keywords.text("TYPE_RACCORD") == "COQUE" ? solver::shell_joint_relations : solver::shell_embedding_relations;
+    return relations_to(target.mesh, target.dofs, solver::embed(target.mesh, nodes, hosts, farthest), origin);
   }
   const solver::Placement movement = placement(keywords);
   const auto embeddings = is_moved ? solver::embed_moved(target.mesh, nodes, hosts, movement, farthest)

@@ -166,9 +166,9 @@ Eigen::Vector3d arm_of(const Mesh& mesh, const Embedding& embedding) {
 }
 
 /// The terms of one component: those of rotations are what they do at the end of the arm.
-LinearRelation shell_relation(const Mesh& mesh, const Embedding& embedding, int c, const Origin& origin) {
+LinearRelation shell_relation(const Mesh& mesh, const Embedding& embedding, int c, const Eigen::Vector3d& arm,
+                              const Origin& origin) {
   LinearRelation relation{{{embedding.node, static_cast<Component>(c), 1.0}}, 0.0, {}, origin};
-  const Eigen::Vector3d arm = arm_of(mesh, embedding);
   const auto host = mesh.cell(embedding.cell);
   for (std::size_t a = 0; a < host.size(); ++a) {
     const double weight = embedding.weights[a];
@@ -183,10 +183,10 @@ LinearRelation shell_relation(const Mesh& mesh, const Embedding& embedding, int 
   return relation;
 }
 
-}  // namespace
-
-std::vector<LinearRelation> shell_embedding_relations(const Mesh& mesh, const DofMap& dofs,
-                                                      std::span<const Embedding> embeddings, const Origin& origin) {
+/// A relation for each component that a node carries.
+template <class RelationOf>
+std::vector<LinearRelation> relations_to_shells(const Mesh& mesh, const DofMap& dofs,
+                                                std::span<const Embedding> embeddings, RelationOf&& relation_of) {
   std::vector<LinearRelation> relations;
   for (const Embedding& embedding : embeddings) {
     if (dofs.dof(mesh.cell(embedding.cell)[0], Component::drx) < 0)
@@ -194,10 +194,25 @@ std::vector<LinearRelation> shell_embedding_relations(const Mesh& mesh, const Do
                   fmt::format("cell {} is to hold nodes as a shell does, but its nodes have no rotations",
                               mesh.cell_name(embedding.cell)));
     for (int c = 0; c < 6; ++c)
-      if (dofs.dof(embedding.node, static_cast<Component>(c)) >= 0)
-        relations.push_back(shell_relation(mesh, embedding, c, origin));
+      if (dofs.dof(embedding.node, static_cast<Component>(c)) >= 0) relations.push_back(relation_of(embedding, c));
   }
   return relations;
+}
+
+}  // namespace
+
+std::vector<LinearRelation> shell_embedding_relations(const Mesh& mesh, const DofMap& dofs,
+                                                      std::span<const Embedding> embeddings, const Origin& origin) {
+  return relations_to_shells(mesh, dofs, embeddings, [&](const Embedding& embedding, int c) {
+    return shell_relation(mesh, embedding, c, arm_of(mesh, embedding), origin);
+  });
+}
+
+std::vector<LinearRelation> shell_joint_relations(const Mesh& mesh, const DofMap& dofs,
+                                                  std::span<const Embedding> embeddings, const Origin& origin) {
+  return relations_to_shells(mesh, dofs, embeddings, [&](const Embedding& embedding, int c) {
+    return shell_relation(mesh, embedding, c, Eigen::Vector3d::Zero(), origin);
+  });
 }
 
 namespace {

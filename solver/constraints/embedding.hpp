@@ -47,9 +47,14 @@ std::vector<LinearRelation> normal_embedding_relations(const Mesh& mesh, const D
 
 /// The same to shells, whose points move with the rotations of their nodes: with P the place of the cell that is
 /// nearest to the node M, u(M) = sum of weight * (u_i + rotation_i x PM), and rotation(M) = sum of weight * rotation_i
-/// where M has rotations (TYPE_RACCORD='COQUE', 'MASSIF_COQUE'). Throws Error `unknown-dof` for a cell whose nodes have
+/// where M has rotations (TYPE_RACCORD='MASSIF_COQUE'). Throws Error `unknown-dof` for a cell whose nodes have
 /// no rotations.
 std::vector<LinearRelation> shell_embedding_relations(const Mesh& mesh, const DofMap& dofs,
                                                       std::span<const Embedding> embeddings, const Origin& origin);
+
+/// Of shells to shells Code_Aster has the displacements and rotations of P for those of M, wherever M lies
+/// (TYPE_RACCORD='COQUE'): the rotation of P does not move the end of the arm PM. Throws as shell_embedding_relations.
+std::vector<LinearRelation> shell_joint_relations(const Mesh& mesh, const DofMap& dofs,
+                                                  std::span<const Embedding> embeddings, const Origin& origin);
 
 }  // namespace comma::solver
