@@ -13,6 +13,7 @@
 #include "solver/elements/section_shapes.hpp"
 #include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::commands {
 
@@ -167,6 +168,70 @@ void check_affine(const Keywords& assignment, const Characteristics& given) {
   }
 }
 
+// The section that a beam has over the given share of what CARA and VALE say.
+BeamSection part_of_section(const Keywords& assignment, const Characteristics& given, std::pair<double, double> share) {
+  const auto at = [&](double place) {
+    const auto first = given.at_end("_DEBUT", "_FIN"), last = given.at_end("_FIN", "_DEBUT");
+    first.require({"R"});
+    last.require({"R"});
+    const auto size = [&](const char* name, double otherwise_first, double otherwise_last) {
+      return (1.0 - place) * first.get(name, otherwise_first) + place * last.get(name, otherwise_last);
+    };
+    const double radius = size("R", 0.0, 0.0);
+    return solver::circular_section(radius, first.has("EP") || last.has("EP") ? size("EP", 0.0, 0.0) : radius);
+  };
+  try {
+    return solver::varying_section(at(share.first), at(share.second), solver::all_sizes_vary);
+  } catch (const solver::Error& error) {
+    throw DiagnosticError(error.code(), error.what(), assignment.span_of("VALE"), error.hint());
+  }
+}
+
+double length_of(const solver::Mesh& mesh, int cell) {
+  const auto nodes = mesh.cell(cell);
+  return (solver::place(mesh, nodes.back()) - solver::place(mesh, nodes.front())).norm();
+}
+
+// Where a cell begins and ends on the line that its group makes.
+std::map<int, std::pair<double, double>> shares_of_line(const Keywords& assignment, const solver::Mesh& mesh,
+                                                        const std::string& group) {
+  const std::vector<int>& cells = mesh.cell_group(group);
+  std::map<int, std::pair<double, double>> shares;
+  double length = 0.0;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i > 0 && mesh.cell(cells[i])[0] != mesh.cell(cells[i - 1])[1])
+      throw DiagnosticError(
+          "not-a-line",
+          fmt::format("the radius varies along group {}, and its cell {} does not go on where {} ends", group,
+                      mesh.cell_name(cells[i]), mesh.cell_name(cells[i - 1])),
+          assignment.span, "order the cells of the group along the line, or name a group a cell");
+    const double begin = length;
+    length += length_of(mesh, cells[i]);
+    shares[cells[i]] = {begin, length};
+  }
+  for (auto& [cell, share] : shares) share = {share.first / length, share.second / length};
+  return shares;
+}
+
+// A circular section that varies does so along the whole line of each group, as in Code_Aster.
+void add_tapered_line(const Keywords& assignment, const std::vector<int>& beams, const solver::Mesh& mesh,
+                      solver::ElementProperties& properties) {
+  const Characteristics given(assignment);
+  std::map<int, std::pair<double, double>> shares;
+  for (const std::string& group : assignment.texts("GROUP_MA"))
+    for (const auto& [cell, share] : shares_of_line(assignment, mesh, group)) shares[cell] = share;
+  for (const int cell : beams) {
+    const auto found = shares.find(cell);
+    properties.sections[cell] =
+        part_of_section(assignment, given, found == shares.end() ? std::pair(0.0, 1.0) : found->second);
+  }
+}
+
+bool is_tapered_circle(const Keywords& assignment) {
+  return assignment.text("SECTION") == "CERCLE" && assignment.has("VARI_SECT") &&
+         assignment.text("VARI_SECT") != "CONSTANT";
+}
+
 BeamSection section_of(const Keywords& assignment, bool bends) {
   const Characteristics given(assignment);
   const std::string& shape = assignment.text("SECTION");
@@ -174,9 +239,8 @@ BeamSection section_of(const Keywords& assignment, bool bends) {
   try {
     if (variation == "CONSTANT") return shaped_section(shape, given, bends);
     if (variation == "AFFINE") check_affine(assignment, given);
-    const auto [first, last] = shape == "CERCLE" ? std::pair("_DEBUT", "_FIN") : std::pair("1", "2");
-    return solver::varying_section(shaped_section(shape, given.at_end(first, last), bends),
-                                   shaped_section(shape, given.at_end(last, first), bends),
+    return solver::varying_section(shaped_section(shape, given.at_end("1", "2"), bends),
+                                   shaped_section(shape, given.at_end("2", "1"), bends),
                                    variation == "AFFINE" ? solver::one_size_varies : solver::all_sizes_vary);
   } catch (const solver::Error& error) {
     throw DiagnosticError(error.code(), error.what(), assignment.span_of("VALE"), error.hint());
@@ -232,6 +296,10 @@ void add_beam_sections(const std::vector<Keywords>& assignments, const solver::M
   for (const Keywords& assignment : assignments) {
     if (assignment.text("SECTION") == "COUDE") {
       for (const int cell : beams_of(assignment, model)) elbows[cell] = &assignment;
+      continue;
+    }
+    if (is_tapered_circle(assignment)) {
+      add_tapered_line(assignment, beams_of(assignment, model), *model.mesh, properties);
       continue;
     }
     const BeamSection section = section_of(assignment, true);
