@@ -98,8 +98,10 @@ ElementField force_stresses(const FieldInput& input, const ElementField& forces)
                     [&](int cell, const BeamSection& section, const SectionForces& f, double* target) {
                       target[0] = f.n / section.area;
                       if (!is_beam(input.model.formulations[cell])) return;
-                      target[1] = f.vy * section.shear_y / section.area;
-                      target[2] = f.vz * section.shear_z / section.area;
+                      // Of beams without shear Code_Aster gives means over the section.
+                      const bool shears = input.model.formulations[cell] == Formulation::timoshenko_beam;
+                      target[1] = f.vy * (shears ? section.shear_y : 1.0) / section.area;
+                      target[2] = f.vz * (shears ? section.shear_z : 1.0) / section.area;
                       target[3] = f.mt * section.torsion_reach / section.torsion;
                       target[4] = f.mfy * section.reach_z / section.inertia_y;
                       target[5] = -f.mfz * section.reach_y / section.inertia_z;
