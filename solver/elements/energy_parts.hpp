@@ -12,8 +12,9 @@ namespace comma::solver {
 
 /// Traction, torsion, bending about the own axes y and z, each with its shear.
 inline constexpr std::array<std::string_view, 4> beam_energy_names = {"TRAC_COM", "TORSION", "FLEX_Y", "FLEX_Z"};
-/// Of strains of the middle of the plate, of its curvatures, of transverse shear.
-inline constexpr std::array<std::string_view, 3> plate_energy_names = {"MEMBRANE", "FLEXION", "CISAILLE"};
+/// Of strains of the surface of the mesh, of curvatures, of transverse shear, and of the first two together where the
+/// middle of the plate lies apart from that surface.
+inline constexpr std::array<std::string_view, 4> plate_energy_names = {"MEMBRANE", "FLEXION", "CISAILLE", "COUPL_MF"};
 
 /// Half the work of the forces on the ends of a beam (in the axes of the mesh, forces and moments of both ends), part
 /// by part. `axes`: its own (rows).

@@ -182,7 +182,7 @@ class PlateBlock final : public ElementBlock {
 
   std::span<const std::string_view> energy_names() const override { return plate_energy_names; }
 
-  /// About the middle of the plate; what holds the rotation about the normal is in none.
+  /// About the surface of the mesh; what holds the rotation about the normal is in none.
   void energy_parts(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const Plate<Nodes>& plate = plates_[element];
@@ -190,19 +190,21 @@ class PlateBlock final : public ElementBlock {
       const PlateKinematics<Nodes> kinematics(plate.corners, rigidity);
       const Vector own = own_displacements(u, element);
       const double known = inelastic_strain(element, state);
-      Eigen::Vector3d parts = Eigen::Vector3d::Zero();
+      const double offset = plate.section->offset;
+      Eigen::Vector4d parts = Eigen::Vector4d::Zero();
       for (const QuadraturePoint& point : points_) {
         const PlateRows<Nodes> rows = kinematics.at(point.at);
         const Eigen::Vector3d curvature = rows.curvature * own;
-        const Eigen::Vector3d strain =
-            rows.membrane * own + plate.section->offset * curvature - Eigen::Vector3d(known, known, 0.0);
+        const Eigen::Vector3d strain = rows.membrane * own - Eigen::Vector3d(known, known, 0.0);
         const Eigen::Vector2d shear = rows.shear_force * own;
+        const Eigen::Matrix3d membrane = plane_law(rigidity.membrane, rigidity.poisson);
+        const Eigen::Matrix3d bending = plane_law(rigidity.bending, rigidity.poisson) + offset * offset * membrane;
         parts += 0.5 * point.weight * rows.measure *
-                 Eigen::Vector3d(strain.dot(plane_law(rigidity.membrane, rigidity.poisson) * strain),
-                                 curvature.dot(plane_law(rigidity.bending, rigidity.poisson) * curvature),
-                                 rigidity.shear_compliance * shear.squaredNorm());
+                 Eigen::Vector4d(strain.dot(membrane * strain), curvature.dot(bending * curvature),
+                                 rigidity.shear_compliance * shear.squaredNorm(),
+                                 2.0 * offset * strain.dot(membrane * curvature));
       }
-      std::ranges::copy(parts, out.begin() + 3 * element);
+      std::ranges::copy(parts, out.begin() + 4 * element);
     }
   }
 
@@ -312,7 +314,10 @@ class PlateBlock final : public ElementBlock {
     const Eigen::VectorXd shares = shape_functions(type, place);
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
     for (int i = 0; i < Nodes; ++i) at += shares[i] * Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[nodes[i]].data());
-    const Eigen::Matrix<double, 6, 1> strain = imposed.plate(cells_[element], at);
+    Eigen::Matrix<double, 6, 1> strain = imposed.plate(cells_[element], at);
+    // Code_Aster has them along the first direction of the cell, whatever axes AFFE_CARA_ELEM asks for.
+    const Eigen::Matrix3d turn = turned_strain(first_direction(plates_[element]));
+    strain << turn * strain.head<3>(), turn * strain.tail<3>();
     const double offset = plates_[element].section->offset;
     const Eigen::Vector3d normal =
         plane_law(rigidity.membrane, rigidity.poisson) * (strain.head<3>() + offset * strain.tail<3>());
@@ -455,6 +460,14 @@ class PlateBlock final : public ElementBlock {
     const Eigen::Vector2d along = Nodes == 3 ? Eigen::Vector2d(at.col(1) - at.col(0))
                                              : Eigen::Vector2d(at.col(1) + at.col(2) - at.col(0) - at.col(Nodes - 1));
     return along.normalized();
+  }
+
+  /// What a strain xx, yy, 2 xy along a direction and across it is along x and y.
+  static Eigen::Matrix3d turned_strain(const Eigen::Vector2d& direction) {
+    const double c = direction[0], s = direction[1];
+    Eigen::Matrix3d turn;
+    turn << c * c, s * s, -c * s, s * s, c * c, c * s, 2 * c * s, -2 * c * s, c * c - s * s;
+    return turn;
   }
 
   /// The least of the resistances to rotations in the plane, about the first direction of the cell and across it.

@@ -11,13 +11,14 @@
 //
 //     integral of (dw/ds + beta_s) = w_j - w_i + L (beta_s,i + beta_s,j) / 2 + 2/3 L alpha_k = L gamma_s,k.
 //
-// The shear force is the divergence of the moments of beta about the surface of the nodes, T = div M(beta), taken at
-// the middle of the side: gamma = T / (k G h). With an offset e the rigidity of these moments is D + e^2 A (R3.07.06).
-// A plate without shear has gamma = 0 (Kirchhoff's condition, side by side), which is all that tells the two theories
-// apart.
+// The shear force is the divergence of the moments of beta about the surface of the nodes, T = div M(beta), its mean
+// over the two Gauss points of the side: gamma = T / (k G h). With an offset e the rigidity of these moments is D + e^2
+// A (R3.07.06). A plate without shear has gamma = 0 (Kirchhoff's condition, side by side), which is all that tells the
+// two theories apart.
 #pragma once
 
 #include <array>
+#include <numbers>
 
 #include <Eigen/Dense>
 
@@ -157,15 +158,35 @@ class PlateKinematics {
     const Eigen::Matrix<double, 2, derivative_count> map = corners_ * reference.template topRows<Nodes>();
     const Eigen::Matrix2d jacobian = map.template leftCols<2>();  // d(x, y) / d(r, s)
     d.template leftCols<2>() = reference.template leftCols<2>() * jacobian.inverse();
-    // f_rr = x_r^2 f_xx + y_r^2 f_yy + 2 x_r y_r f_xy + x_rr f_x + y_rr f_y, and so on.
+    // f_rr = x_r^2 f_xx + y_r^2 f_yy + 2 x_r y_r f_xy, and so on: Code_Aster leaves out what the map of a quadrangle
+    // adds that is no parallelogram, x_rs f_x + y_rs f_y.
     const double xr = map(0, 0), xs = map(0, 1), yr = map(1, 0), ys = map(1, 1);
     Eigen::Matrix3d second;               // columns rr ss rs
     second << xr * xr, xs * xs, xr * xs,  //
         yr * yr, ys * ys, yr * ys,        //
         2 * xr * yr, 2 * xs * ys, xr * ys + xs * yr;
-    d.template rightCols<3>() =
-        (reference.template rightCols<3>() - d.template leftCols<2>() * map.template rightCols<3>()) * second.inverse();
+    d.template rightCols<3>() = reference.template rightCols<3>() * second.inverse();
     return jacobian.determinant();
+  }
+
+  /// Over the two Gauss points of a side; in triangles second derivatives, which alone count there, are the same all
+  /// over.
+  Derivatives mean_derivatives(int side) const {
+    Derivatives d;
+    const ReferencePoint at = middle(side);
+    if constexpr (Nodes == 3) {
+      derivatives(at, d);
+      return d;
+    }
+    Derivatives sum = Derivatives::Zero();
+    const int along = at[0] == 0.0 ? 0 : 1;
+    for (const double place : {-std::numbers::inv_sqrt3, std::numbers::inv_sqrt3}) {
+      ReferencePoint point = at;
+      point[static_cast<std::size_t>(along)] = place;
+      derivatives(point, d);
+      sum += d;
+    }
+    return 0.5 * sum;
   }
 
   using Gradients = std::array<WideRow, derivative_count>;
@@ -207,9 +228,7 @@ class PlateKinematics {
         sides(k, 6 * i + 3) = 0.5 * lengths_[k] * directions_(1, k);
       }
       if (rigidity_.shear_compliance == 0.0) continue;
-      Derivatives d;
-      derivatives(middle(k), d);
-      const auto [xi, yi] = rotation_rows(d);
+      const auto [xi, yi] = rotation_rows(mean_derivatives(k));
       const auto shear = shear_rows(xi, yi);
       const WideRow along =
           rigidity_.shear_compliance * lengths_[k] * (directions_(0, k) * shear[0] + directions_(1, k) * shear[1]);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/energy_parts.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/energies.hpp"
 #include "solver/fields/extrapolation.hpp"
@@ -73,11 +74,28 @@ bool FieldComputation::has_bars_with_memory() const {
 
 // Of continua from their stresses; of springs, bars and beams from their displacements, and of bars with a memory from
 // what they remember.
+namespace {
+
+// Of plates the whole is what its parts make together: what holds the rotation about the normal is no elastic energy.
+ElementField without_drilling(const Model& model, ElementField energies) {
+  const int total = energies.component("TOTALE");
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
+    if (!is_plate(model.formulations[static_cast<std::size_t>(cell)]) || energies.points(cell) == 0) continue;
+    double sum = 0.0;
+    for (const std::string_view name : plate_energy_names) sum += energies.at(cell, 0, energies.component(name));
+    energies.values[static_cast<std::size_t>(energies.starts[cell]) * energies.components.size() +
+                    static_cast<std::size_t>(total)] = sum;
+  }
+  return energies;
+}
+
+}  // namespace
+
 Field FieldComputation::elastic_energy_of_cells(std::size_t step) {
   const Eigen::VectorXd u = to_dofs(displacement(step), dofs_);
   if (has_bars_with_memory()) assembler_.resume(u, &whole_field("SIEF_ELGA", step), &whole_field("VARI_ELGA", step));
   require_no_initial_stresses("the elastic energy", step);
-  Field energies = assembler_.elastic_energies(u);
+  Field energies = without_drilling(*problem_.model, assembler_.elastic_energies(u));
   const Field continua = integrate_cells(*problem_.model, whole_field("ENEL_ELGA", step));
   put_piece(energies, {&continua, {}, {}, 1.0, false});
   return energies;

@@ -44,7 +44,6 @@ struct PlateInUse {
   PlateSection section;
   IsotropicModuli material;
   double expansion;
-  bool shears;
 };
 
 PlateInUse plate_in_use(const FieldInput& input, int cell) {
@@ -54,8 +53,7 @@ PlateInUse plate_in_use(const FieldInput& input, int cell) {
     throw Error("unsupported",
                 fmt::format("the plate on cell {} has an anisotropic material", input.model.mesh->cell_name(cell)));
   const MaterialPoint at = middle_of_plate(input, cell);
-  return {section, moduli(*material, at), inelastic_axial_strain(*material, at),
-          input.model.formulations[static_cast<std::size_t>(cell)] == Formulation::shear_plate};
+  return {section, moduli(*material, at), inelastic_axial_strain(*material, at)};
 }
 
 /// xx, yy and half the angle xy that plane forces, or moments, of a resistance 1 / compliance cause.
@@ -64,6 +62,8 @@ Eigen::Vector3d plane_strain_of(const Eigen::Vector3d& forces, double compliance
          Eigen::Vector3d(forces[0] - poisson * forces[1], forces[1] - poisson * forces[0], (1.0 + poisson) * forces[2]);
 }
 
+/// GAX and GAY are halves of angles as EXY is, and those of the shear force in thin plates too, which have no such
+/// strain: so Code_Aster has them.
 PlateForces strains_of(const PlateInUse& plate, const PlateForces& forces) {
   const double h = plate.section.thickness, offset = plate.section.offset;
   const Eigen::Vector3d normal = forces.head<3>();
@@ -75,7 +75,7 @@ PlateForces strains_of(const PlateInUse& plate, const PlateForces& forces) {
   strains.head<2>().array() += plate.expansion;
   strains.segment<3>(3) = curvature;
   const double shear_modulus = 0.5 * plate.material.young / (1.0 + plate.material.poisson);
-  if (plate.shears) strains.tail<2>() = forces.tail<2>() / (plate.section.shear_factor * shear_modulus * h);
+  strains.tail<2>() = 0.5 * forces.tail<2>() / (plate.section.shear_factor * shear_modulus * h);
   return strains;
 }
 

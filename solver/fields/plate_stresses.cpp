@@ -35,7 +35,7 @@ std::array<double, 6> stress_at(double share, const PlateSection& section, const
 std::array<double, 6> strain_at(double share, const PlateSection& section, const PlateForces& strains) {
   const double height = section.offset + 0.5 * share * section.thickness;
   const Eigen::Vector3d plane = strains.head<3>() + height * strains.segment<3>(3);
-  return {plane[0], plane[1], 0.0, plane[2], 0.5 * strains[6], 0.5 * strains[7]};
+  return {plane[0], plane[1], 0.0, plane[2], strains[6], strains[7]};
 }
 
 /// The tensor `value_at(share, section, values)` at each place in the thickness, `values` being the eight that
