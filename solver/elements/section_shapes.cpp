@@ -53,7 +53,7 @@ void add_hollow_torsion(BeamSection& section, const Rectangle& r) {
 /// Cowper's factor of a tube without lateral contraction, by the ratio of its radii. Code_Aster 17.3 interpolates it
 /// between these places, where it has five digits.
 double tube_shear(double ratio) {
-  constexpr std::array<std::pair<double, double>, 13> table = {{{0.0, 1.16667},
+  constexpr std::array<std::pair<double, double>, 14> table = {{{0.0, 1.16667},
                                                                 {0.05, 1.17442},
                                                                 {0.1, 1.19877},
                                                                 {0.2, 1.28947},
@@ -65,6 +65,7 @@ double tube_shear(double ratio) {
                                                                 {0.8, 1.95983},
                                                                 {0.9, 1.99081},
                                                                 {0.95, 1.99781},
+                                                                {0.99, 1.99992},
                                                                 {1.0, 2.0}}};
   const auto above =
       std::ranges::upper_bound(table.begin() + 1, table.end() - 1, ratio, {}, &std::pair<double, double>::first);
