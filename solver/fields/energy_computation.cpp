@@ -226,12 +226,30 @@ ElementField FieldComputation::work_of_bars(const std::vector<int>& bars, std::s
 }
 
 Field FieldComputation::unloading(std::size_t step) {
+  know_earlier("DERA_ELGA", step);
+  std::optional<ElementField> before;  // a copy: the next step is looked at below
+  if (step > 0) before = whole_field("DERA_ELGA", step - 1);
   const ElementField now = continuum_stresses(stresses_beside_plates(step));
   const bool is_last = step + 1 == result_.steps.size();
-  ElementField indicators = local_indicators(now, is_last ? now : continuum_stresses(stresses_beside_plates(step + 1)));
+  const std::size_t next = is_last ? step : step + 1;
+  const ElementField then = continuum_stresses(stresses_beside_plates(next));
+  LoadingFields fields{now, then, nullptr, nullptr, problem_.behaviours.get()};
+  if (some_flow()) {
+    fields.variables = &whole_field("VARI_ELGA", step);
+    fields.next_variables = &whole_field("VARI_ELGA", next);
+  }
+  if (before) fields.before = &*before;
   move_to(step);
+  ElementField indicators = local_indicators(input(), fields);
   if (is_last) std::ranges::fill(indicators.values, absent);
   return indicators;
+}
+
+bool FieldComputation::some_flow() const {
+  const auto flows = [](const CellBehaviour& behaviour) {
+    return behaviour.relation != Relation::elastic && behaviour.relation != Relation::hyperelastic;
+  };
+  return problem_.behaviours && std::ranges::any_of(*problem_.behaviours, flows);
 }
 
 Field FieldComputation::yield_of_loading(std::size_t step) {

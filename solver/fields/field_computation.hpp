@@ -131,6 +131,7 @@ class FieldComputation {
   ElementField work_of_bars(const std::vector<int>& bars, std::size_t step);
   Field internal_variables(std::size_t step);
   Field unloading(std::size_t step);
+  bool some_flow() const;
   Field yield_of_loading(std::size_t step);
   Field energy_of_loading(std::size_t step);
   const Field& remembered(std::string_view name, std::size_t step) const;

@@ -1,5 +1,6 @@
 #include "solver/fields/loading_indicators.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -34,6 +35,39 @@ double loss_of_direction(const Vector6d& before, const Vector6d& after) {
   const Vector6d change = after - before;
   const double product = std::sqrt(inner(before, before) * inner(change, change));
   return product == 0.0 ? 0.0 : 1.0 - std::abs(inner(before, change)) / product;
+}
+
+/// The components of DERA_ELGA.
+constexpr std::array<std::string_view, 12> loading_names = {
+    "DCHA_V", "DCHA_T", "IND_DCHA", "VAL_DCHA", "X11", "X22", "X33", "X12", "X13", "X23", "RADI_V", "ERR_RADI"};
+enum LoadingColumn { change_of_deviator, change_of_all, indicator_column, excess, centre, turning = 10, turned_normal };
+
+/// IND_DCHA.
+namespace indicator_value {
+constexpr double elastic = 1.0, flows = 2.0, unloads = -1.0, unloads_too_far = -2.0;
+}
+
+/// Where the yield surface of a relation is among the internal variables.
+struct YieldPlaces {
+  int flowing = -1;      ///< the indicator of flow; -1: nothing flows
+  int back_stress = -1;  ///< the first of its six components
+};
+
+YieldPlaces yield_places(Relation relation) {
+  switch (relation) {
+    case Relation::isotropic_linear:
+    case Relation::isotropic_traction:
+    case Relation::isotropic_power:
+    case Relation::isotropic_nonlinear:
+      return {1, -1};
+    case Relation::kinematic_linear:
+      return {6, 0};
+    case Relation::mixed_linear:
+    case Relation::mixed_traction:
+      return {1, 2};
+    default:
+      return {};
+  }
 }
 
 bool is_isotropic(Relation relation) {
@@ -125,21 +159,154 @@ double energy_value(const PointState& point) {
   return taken == 0.0 ? 0.0 : 1.0 - energy_of_straight_way(point, elastic + point.plastic_strain) / taken;
 }
 
+using LoadingValues = std::array<double, loading_names.size()>;
+
+/// A point at a step and the next.
+struct LoadingPoint {
+  Vector6d from, to;
+  Vector6d back_from = Vector6d::Zero(), back_to = Vector6d::Zero();
+  double p = 0.0;  ///< cumulated plastic strain at the step
+  bool flows_from = false, flows_to = false;
+  double yield = 0.0, kept_yield = 0.0;  ///< initial radius; that of the part of the stress that X11 ... leave out
+  bool is_plane = false;
+};
+
+Vector6d back_stress(const ElementField& variables, int cell, int point, int first) {
+  Vector6d tensor = Vector6d::Zero();
+  for (int i = 0; i < 6 && first >= 0; ++i) tensor[i] = variables.at(cell, point, first + i);
+  return tensor;
+}
+
+/// What Code_Aster takes for the centre of the yield surface in VAL_DCHA: components of the step before, two places
+/// off.
+Vector6d shifted_centre(const LoadingValues& before, bool is_plane) {
+  Vector6d tensor = Vector6d::Zero();
+  for (int i = 0; i < (is_plane ? 4 : 6); ++i) tensor[i] = before[static_cast<std::size_t>(indicator_column + i)];
+  return tensor;
+}
+
+/// IND_DCHA, VAL_DCHA and X11 ... X23.
+void follow_unloading(const LoadingPoint& point, const LoadingValues& before, LoadingValues& values) {
+  const double last = before[indicator_column];
+  if (last == indicator_value::unloads_too_far) {
+    std::copy(before.begin() + indicator_column, before.begin() + turning, values.begin() + indicator_column);
+    return;
+  }
+  if (!(point.p > 0.0) || point.flows_to) {
+    values[indicator_column] = point.p > 0.0 ? indicator_value::flows : indicator_value::elastic;
+    return;
+  }
+  values[indicator_column] = indicator_value::unloads;
+  if (last != indicator_value::unloads) {
+    const Vector6d kept = (1.0 - ratio(point.kept_yield, norm(deviator(point.from)))) * point.from;
+    std::copy(kept.begin(), kept.end(), values.begin() + centre);
+    return;
+  }
+  const Vector6d reach = deviator(point.from - shifted_centre(before, point.is_plane));
+  const double beyond = ratio(std::sqrt(inner(reach, reach)), point.yield);
+  if (!(beyond > 1.0)) return;
+  std::copy(before.begin() + centre, before.begin() + turning, values.begin() + centre);
+  values[indicator_column] = indicator_value::unloads_too_far;
+  values[excess] = beyond;
+}
+
+double distance_of_normals(const LoadingPoint& point) {
+  const Vector6d from = deviator(point.from) - point.back_from, to = deviator(point.to) - point.back_to;
+  const double product = norm(from) * norm(to);
+  if (!point.flows_from || !point.flows_to || product == 0.0) return 0.0;
+  const Vector6d change = to / norm(to) - from / norm(from);
+  return 0.5 * std::sqrt(1.5) * std::sqrt(inner(change, change));
+}
+
+LoadingValues loading_values(const LoadingPoint& point, Relation relation, const LoadingValues& before) {
+  LoadingValues values{};
+  const bool about_centre = relation == Relation::kinematic_linear;
+  const Vector6d from = deviator(point.from), to = deviator(point.to);
+  values[change_of_deviator] =
+      about_centre ? change_of_norm(from - point.back_from, to - point.back_to) : change_of_norm(from, to);
+  values[change_of_all] = change_of_norm(point.from, point.to);
+  if (yield_places(relation).flowing < 0) return values;
+  values[turned_normal] = distance_of_normals(point);
+  if (!is_isotropic(relation)) return values;
+  values[turning] = loss_of_direction(from, to);
+  follow_unloading(point, before, values);
+  return values;
+}
+
+/// Reads the points of one cell.
+class LoadingOfCell {
+ public:
+  LoadingOfCell(const FieldInput& input, const LoadingFields& fields, ContinuumPoints& points, int cell)
+      : input_(input), fields_(fields), points_(points), cell_(cell) {
+    const bool remembers = fields.variables != nullptr && fields.behaviours != nullptr && !fields.behaviours->empty() &&
+                           fields.variables->points(cell) > 0 && fields.next_variables->points(cell) > 0;
+    if (remembers) relation_ = (*fields.behaviours)[static_cast<std::size_t>(cell)].relation;
+    const int across = fields.stresses.component("SIXZ");
+    is_plane_ = across < 0 || std::isnan(fields.stresses.at(cell, 0, across));
+  }
+
+  LoadingValues at(int g, const Vector6d& from, const Vector6d& to) const {
+    LoadingPoint point{from, to};
+    point.is_plane = is_plane_;
+    const YieldPlaces places = yield_places(relation_);
+    if (places.flowing >= 0) {
+      const ElementField &now = *fields_.variables, &next = *fields_.next_variables;
+      point.flows_from = now.at(cell_, g, places.flowing) > 0.5;
+      point.flows_to = next.at(cell_, g, places.flowing) > 0.5;
+      point.back_from = back_stress(now, cell_, g, places.back_stress);
+      point.back_to = back_stress(next, cell_, g, places.back_stress);
+      if (is_isotropic(relation_)) {
+        point.p = now.at(cell_, g, 0);
+        point.yield = initial_yield(g);
+        point.kept_yield = relation_ == Relation::isotropic_power ? 0.0 : point.yield;
+      }
+    }
+    return loading_values(point, relation_, before(g));
+  }
+
+ private:
+  LoadingValues before(int g) const {
+    LoadingValues values{};
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double value = fields_.before->at(cell_, g, static_cast<int>(i));
+      values[i] = std::isnan(value) ? 0.0 : value;
+    }
+    return values;
+  }
+  double initial_yield(int g) const {
+    const Material& material = *input_.materials.by_cell[static_cast<std::size_t>(cell_)];
+    const ContinuumSample& sample = points_.samples(cell_)[static_cast<std::size_t>(g)];
+    const MaterialPoint at = points_.material_point(cell_, input_.state, sample, points_.locate(cell_, sample).at, g);
+    const auto& elasticity = std::get<IsotropicElasticity>(*material.elasticity);
+    return hardening(plastic_point(elasticity, material.plasticity, relation_, at).curve, 0.0).first;
+  }
+
+  const FieldInput& input_;
+  const LoadingFields& fields_;
+  ContinuumPoints& points_;
+  int cell_;
+  Relation relation_ = Relation::elastic;
+  bool is_plane_ = false;
+};
+
 }  // namespace
 
-ElementField local_indicators(const ElementField& before, const ElementField& after) {
-  if (before.starts != after.starts)
+ElementField local_indicators(const FieldInput& input, const LoadingFields& fields) {
+  if (fields.stresses.starts != fields.next_stresses.starts)
     throw Error("incompatible-field", "the stresses of one step and the next lie at different points");
-  const TensorReader first(before, stress_components);
-  const TensorReader second(after, stress_components);
-  ElementField result{"DERA_R", before.support, {"DCHA_V", "DCHA_T", "RADI_V"}, {0}, {}};
-  for (int cell = 0; cell + 1 < static_cast<int>(before.starts.size()); ++cell) {
-    const int points = first.has(cell) ? before.points(cell) : 0;
-    result.starts.push_back(result.starts.back() + points);
-    for (int point = 0; point < points; ++point) {
-      const Vector6d from = first.at(cell, point), to = second.at(cell, point);
-      result.values.insert(result.values.end(), {change_of_norm(deviator(from), deviator(to)), change_of_norm(from, to),
-                                                 loss_of_direction(deviator(from), deviator(to))});
+  const ElementField& stresses = fields.stresses;
+  const TensorReader first(stresses, stress_components), second(fields.next_stresses, stress_components);
+  ContinuumPoints points(input.model);
+  ElementField result{"DERA_R", stresses.support, {loading_names.begin(), loading_names.end()}, {0}, {}};
+  for (int cell = 0; cell + 1 < static_cast<int>(stresses.starts.size()); ++cell) {
+    const int count = first.has(cell) ? stresses.points(cell) : 0;
+    result.starts.push_back(result.starts.back() + count);
+    if (count == 0) continue;
+    const LoadingOfCell loading(input, fields, points, cell);
+    for (int g = 0; g < count; ++g) {
+      const auto values =
+          fields.before == nullptr ? LoadingValues{} : loading.at(g, first.at(cell, g), second.at(cell, g));
+      result.values.insert(result.values.end(), values.begin(), values.end());
     }
   }
   return result;
