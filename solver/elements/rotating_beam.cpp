@@ -17,8 +17,8 @@ namespace {
 
 constexpr int roll_variable = 1;
 using Vector12d = Eigen::Matrix<double, 12, 1>;
-/// What turns the axes in a step: the displacement of the second node relative to the first, and the mean of the
-/// rotations of both.
+/// What the axes follow: the displacement of the second node relative to the first in the step, and the mean of the
+/// whole rotations of both.
 using Motion = Eigen::Matrix<double, 6, 1>;
 using Derivative = Eigen::AutoDiffScalar<Motion>;
 
@@ -27,33 +27,29 @@ using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
 template <class Scalar>
 using Axes = Eigen::Matrix<Scalar, 3, 3>;
 
-/// The axes of `before`, moved along with their first direction the shortest way to another one, then turned about it.
+/// The first direction along the chord, the second what is left of the old one across it, turned about the chord by
+/// `rotation`.
 template <class Scalar>
 Axes<Scalar> carried_axes(const Eigen::Matrix3d& before, const Vector3<Scalar>& along, const Scalar& length,
                           const Vector3<Scalar>& rotation) {
-  using std::cos, std::sin;
+  using std::cos, std::sin, std::sqrt;
   const Vector3<Scalar> x = along / length;
-  const Vector3<Scalar> old = before.row(0).transpose().template cast<Scalar>();
-  const Scalar share = 1.0 + old.dot(x);
-  const Vector3<Scalar> sum = old + x;
+  const Vector3<Scalar> old = before.row(1).transpose().template cast<Scalar>();
+  const Vector3<Scalar> across = old - old.dot(x) * x;
+  const Vector3<Scalar> y = across / sqrt(across.dot(across)), z = x.cross(y);
   const Scalar twist = rotation.dot(x);
   const Scalar c = cos(twist), s = sin(twist);
   Axes<Scalar> axes;
-  std::array<Vector3<Scalar>, 2> carried;
-  for (int k = 0; k < 2; ++k) {
-    const Vector3<Scalar> own = before.row(k + 1).transpose().template cast<Scalar>();
-    carried[static_cast<std::size_t>(k)] = own - (own.dot(x) / share) * sum;
-  }
   axes.row(0) = x;
-  axes.row(1) = c * carried[0] + s * carried[1];
-  axes.row(2) = c * carried[1] - s * carried[0];
+  axes.row(1) = c * y + s * z;
+  axes.row(2) = c * z - s * y;
   return axes;
 }
 
 /// Where a step begins.
 struct BeamPast {
   Eigen::Vector3d along = Eigen::Vector3d::Zero();  ///< from the first node to the second
-  double roll = 0.0;
+  double roll = 0.0;                                ///< of the axes before rotations turn them about the chord
   Vector12d displacement = Vector12d::Zero();
   Vector12d force = Vector12d::Zero();  ///< on both ends, in own axes
   double elongation = 0.0;              ///< left by the turns of all steps
@@ -262,15 +258,16 @@ class RotatingBeam final : public ElementBlock {
     first.roll = members_[static_cast<std::size_t>(element)].section->roll;
     Vector12d step = unknowns(element, u);
     step.segment<3>(6) -= step.head<3>();
-    return roll_of(geometry<double>(first, motion_of(step)).axes);
+    return roll_of(geometry<double>(first, motion_of(first, step)).axes);
   }
 
+  /// `roll`: of the axes as the forces have them.
   void begin(int element, const Eigen::VectorXd& u, double roll, const Vector12d& force) {
     BeamPast& past = past_[static_cast<std::size_t>(element)];
     past.displacement = unknowns(element, u);
     past.along = initial_chord(cells_[static_cast<std::size_t>(element)]) + past.displacement.segment<3>(6) -
                  past.displacement.head<3>();
-    past.roll = roll;
+    past.roll = roll - mean_rotation(past.displacement).dot(past.along.normalized());
     past.force = force;
   }
 
@@ -290,9 +287,13 @@ class RotatingBeam final : public ElementBlock {
     return step;
   }
 
-  static Motion motion_of(const Vector12d& step) {
+  static Eigen::Vector3d mean_rotation(const Vector12d& displacement) {
+    return 0.5 * (displacement.segment<3>(3) + displacement.segment<3>(9));
+  }
+
+  static Motion motion_of(const BeamPast& past, const Vector12d& step) {
     Motion motion;
-    motion << step.segment<3>(6), 0.5 * (step.segment<3>(3) + step.segment<3>(9));
+    motion << step.segment<3>(6), mean_rotation(past.displacement + step);
     return motion;
   }
 
@@ -300,7 +301,7 @@ class RotatingBeam final : public ElementBlock {
     const BeamPast& past = past_[static_cast<std::size_t>(element)];
     const Member& own = members_[static_cast<std::size_t>(element)];
     const Vector12d step = increment(element, u);
-    const auto now = geometry<double>(past, motion_of(step));
+    const auto now = geometry<double>(past, motion_of(past, step));
     const Vector12d force = past.force + uniform_beam<double>(*own.section, own.moduli, now.length, shear_) *
                                              turned<double>(now.axes, step);
     const double turn = now.axes.row(0).dot(past.along.normalized());
@@ -315,10 +316,11 @@ class RotatingBeam final : public ElementBlock {
 
   Turning turning(int element, const Eigen::VectorXd& u) const {
     const Member& own = members_[static_cast<std::size_t>(element)];
-    const Motion motion = motion_of(increment(element, u));
+    const BeamPast& past = past_[static_cast<std::size_t>(element)];
+    const Motion motion = motion_of(past, increment(element, u));
     Eigen::Matrix<Derivative, 6, 1> moving;
     for (int i = 0; i < 6; ++i) moving[i] = Derivative(motion[i], 6, i);
-    const auto now = geometry<Derivative>(past_[static_cast<std::size_t>(element)], moving);
+    const auto now = geometry<Derivative>(past, moving);
     return {now.axes, uniform_beam<Derivative>(*own.section, own.moduli, now.length, shear_)};
   }
 

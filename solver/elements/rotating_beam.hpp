@@ -11,13 +11,15 @@ namespace comma::solver {
 
 /// Straight beams that turn as far as they like and strain little, step by step on the geometry as it becomes: in a
 /// step the end forces in own axes grow by the stiffness of a linear beam of the length that it has at the step's end,
-/// times the increments of displacement and rotation of the step in the axes that it has there. These go with the chord
-/// the shortest way, and turn about it by the mean of the increments of rotation at both ends. A turn by an angle
-/// leaves half its square as an elongation: the smaller the steps, the better. The rule is what the figures of ssnl139b
-/// tell, to 3e-10; R3.08.09 says of its like that it assumes small steps. Forces act along the present axes, and the
-/// tangent is not symmetric. Internal variables: zero; the roll of the own axes (see own_axes) in radians; the
-/// elongation that the turns of all steps have left. Throws Error `unsupported` for sections that vary and materials
-/// whose properties do, what make_slender_block() does else.
+/// times the increments of displacement and rotation of the step in the axes that it has there. Their first
+/// direction is the chord's, their second what is left of that of the last step across it, and both are turned about
+/// the chord by the mean of the whole rotations of both ends, which the next step does not begin with. A turn by an
+/// angle leaves half its square as an elongation: the smaller the steps, the better. So Code_Aster 17.3 does it, as
+/// forces and axes (STRX_ELGA, before that turn) of one and several elements tell to all digits, and ssnl139b; R3.08.09
+/// says of its like that it assumes small steps. Forces act along the present axes, and the tangent is not symmetric.
+/// Internal variables: zero; the roll of the own axes (see own_axes) in radians; the elongation that the turns of all
+/// steps have left. Throws Error `unsupported` for sections that vary and materials whose properties do, what
+/// make_slender_block() does else.
 std::unique_ptr<ElementBlock> make_rotating_beam_block(const BlockInput& input, std::vector<int> cells);
 
 /// Internal variables at each point.

@@ -66,8 +66,8 @@ TEST_CASE("the axes of a beam turn with it, and its forces with them", "[element
   assembler.accept(bent(0.01));
   const ElementField before = assembler.stresses(bent(0.01));
   // A quarter turn in steps so small that what they leave counts no more.
-  const Eigen::Vector3d axis = Eigen::Vector3d(0.2, -1.0, 0.6).normalized();
   const Eigen::Vector3d chord = Eigen::Vector3d(1, 2, 2) + bent(0.01).segment<3>(6) - bent(0.01).head<3>();
+  const Eigen::Vector3d axis = chord.cross(Eigen::Vector3d(0.4, 1.0, -0.3)).normalized();
   constexpr int steps = 4000;
   Eigen::VectorXd u = bent(0.01);
   for (int k = 1; k <= steps; ++k) {
@@ -87,6 +87,20 @@ TEST_CASE("the axes of a beam turn with it, and its forces with them", "[element
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.5 * std::numbers::pi, axis).toRotationMatrix();
   for (int part = 0; part < 12; part += 3)
     CHECK((turned.segment<3>(part) - turn * first.segment<3>(part)).norm() <= 1e-3 * first.norm());
+}
+
+/// Of a step from rest: the axes go with the chord, the second axis staying in the plane of the old one and the chord,
+/// and turn about it by the mean of the rotations of both ends.
+TEST_CASE("the axes of a beam turn about its chord by the rotations of its ends, as in Code_Aster 17.3", "[elements]") {
+  const Body body = beam(Formulation::euler_beam);
+  Assembler assembler(body.model, body.materials, body.properties, *body.dofs, &turning);
+  const double before = assembler.internal_variables(body.zero()).at(0, 0, 1);
+  Eigen::VectorXd u = body.zero();
+  u.segment<3>(9) = 0.3 * Eigen::Vector3d(1, 2, 2).normalized();
+  CHECK(assembler.internal_variables(u).at(0, 0, 1) == Approx(before + 0.15).margin(1e-14));
+  // Whole rotations count, step after step.
+  assembler.accept(u);
+  CHECK(assembler.internal_variables(2.0 * u).at(0, 0, 1) == Approx(before + 0.3).margin(1e-14));
 }
 
 TEST_CASE("a beam in large rotations goes on from its forces and variables as if it had never stopped", "[elements]") {
