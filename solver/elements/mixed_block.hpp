@@ -21,8 +21,11 @@ inline constexpr std::array<std::string_view, 7> solid_mixed_names = {"SIXX", "S
 /// fields the three balances are those of mixed_response(); with p alone the swelling at a point is p / K and the
 /// strain of the command variables.
 ///
-/// stresses() are the law's, Cauchy's, on the volume as the displacements have it, and SIP, by which p exceeds their
-/// mean in the balance of the swelling; Code_Aster leaves it at 0 with the multiplicative split.
+/// stresses() are Cauchy's, on the volume as the displacements have it, and SIP, the part of a mean that the balance of
+/// the swelling or of p is about, as Code_Aster 17.3 shows them: with two fields the law's stress, and by how much p
+/// exceeds its mean; with the multiplicative split the law's deviator and p, and by how much the law's mean exceeds p;
+/// with p alone the deviator and p, and by how much the mean of the law at the volume of the displacements exceeds it,
+/// which of logarithmic strains sees their deviator alone (so that T among the variables has no trace either).
 template <int Dim, int Nodes, bool Axisymmetric>
 class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
   using Base = InelasticBlock<Dim, Nodes, Axisymmetric>;
@@ -118,9 +121,10 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
                  const double* shown =
                      reported.data() + static_cast<std::ptrdiff_t>(this->point_index(element, g)) * stress_count;
                  Vector6d stress = Base::padded(shown);
-                 const double mean = stress.head<3>().mean(), volume = volume_ratio(gradient);
+                 const double shown_mean = stress.head<3>().mean(), volume = volume_ratio(gradient);
+                 const double mean = measure_ == VolumeMeasure::ratio ? shown_mean + shown[strains] : shown_mean;
                  stress.head<3>().array() +=
-                     (measure_ == VolumeMeasure::logarithm ? fields.pressure / volume : fields.pressure) - mean;
+                     (measure_ == VolumeMeasure::logarithm ? fields.pressure / volume : fields.pressure) - shown_mean;
                  MixedResponse response;
                  response.stress = is_large() ? second_stress_of(gradient, stress) : stress;
                  response.swelling = two_fields() ? law_pressure(mean, volume, fields) - fields.pressure : 0.0;
@@ -141,14 +145,25 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
           const PointResponse law =
               this->respond(element, g, x, with_volume(gradient, fields.swelling, measure_), state, &PointLaw::respond);
           const double volume = volume_ratio(gradient);
-          const Vector6d stress = law.reported * (ratio_of(fields.swelling) / volume);
+          Vector6d stress = law.reported * (ratio_of(fields.swelling) / volume);
+          const double mean = stress.template head<3>().mean();
+          if (two_fields() && measure_ != VolumeMeasure::ratio) {
+            target[strains] = fields.pressure - law_pressure(mean, volume, fields);
+          } else {
+            const double shown = measure_ == VolumeMeasure::logarithm ? fields.pressure / volume : fields.pressure;
+            stress.template head<3>().array() += shown - mean;
+            target[strains] = law_mean(gradient, fields, mean) - shown;
+          }
           Eigen::Map<Strain> written(target);
           written = stress.template head<strains>();
-          target[strains] = measure_ == VolumeMeasure::ratio
-                                ? 0.0
-                                : fields.pressure - law_pressure(stress.template head<3>().mean(), volume, fields);
           target += stress_count;
         });
+  }
+
+  void variables(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    Base::variables(u, state, out);
+    if (!keeps_deviator()) return;
+    each_stress_of_strain(out, [](auto stress, std::size_t) { stress.array() -= stress.mean(); });
   }
 
   void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
@@ -167,7 +182,15 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
 
   void energy_densities(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported,
                         std::span<const double> variables, std::span<double> out) const override {
-    Base::energy_densities(u, state, law_stresses(reported), variables, out);
+    if (!keeps_deviator() || variables.empty())
+      return Base::energy_densities(u, state, law_stresses(reported), variables, out);
+    std::vector<double> whole(variables.begin(), variables.end());
+    std::vector<double> pressures;
+    each_mixed_point(u, state, [&](int, int, const Coordinates&, const Eigen::Matrix3d&, const Fields& fields) {
+      pressures.push_back(fields.pressure);
+    });
+    each_stress_of_strain(whole, [&](auto stress, std::size_t point) { stress.array() += pressures[point]; });
+    Base::energy_densities(u, state, law_stresses(reported), whole, out);
   }
 
   void accept(const Eigen::VectorXd& u, const VariableState& state) override {
@@ -202,6 +225,23 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
     if (!is_large()) return 1.0;
     return measure_ == VolumeMeasure::ratio ? 1.0 + swelling : std::exp(swelling);
   }
+  /// Whether the T of logarithmic strains that results show has no trace.
+  bool keeps_deviator() const { return !two_fields() && measure_ == VolumeMeasure::logarithm; }
+  /// Calls visitor(the three components along the axes of T, number of the point) for each point of variables().
+  template <class Visitor>
+  void each_stress_of_strain(std::span<double> variables, Visitor&& visitor) const {
+    const auto count = static_cast<std::size_t>(this->variable_count());
+    constexpr std::size_t tensor = 6;  // behind all others
+    for (std::size_t point = 0; (point + 1) * count <= variables.size(); ++point)
+      visitor(Eigen::Map<Eigen::Vector3d>(variables.data() + (point + 1) * count - tensor), point);
+  }
+  /// The mean of Cauchy's stresses that the law has, `mean` being that at the swelling.
+  double law_mean(const Eigen::Matrix3d& gradient, const Fields& fields, double mean) const {
+    if (two_fields()) return mean;
+    if (measure_ == VolumeMeasure::logarithm) return 0.0;
+    return fields.pressure + fields.bulk * (volume_of(gradient, measure_) - fields.swelling);
+  }
+
   /// The mean of Cauchy's stresses as the balance of the swelling has it.
   double law_pressure(double mean, double volume, const Fields& fields) const {
     return mean * volume * logarithm_slope(fields.swelling, measure_);

@@ -336,10 +336,11 @@ std::string_view full_family(CellType type) {
 }
 
 /// As Code_Aster's cases have it (docs/conformance.md).
-std::string_view mixed_family(CellType type, int fields) {
+std::string_view mixed_family(CellType type, Formulation formulation) {
   if (type == CellType::hexa20) return "FPG8";
   if (type == CellType::tetra10) return "FPG4";
-  return type == CellType::quad8 && fields == 2 ? "FPG4" : full_family(type);
+  const bool is_reduced = mixed_field_count(formulation) == 2 && is_axisymmetric(formulation);
+  return type == CellType::quad8 && is_reduced ? "FPG4" : full_family(type);
 }
 
 }  // namespace
@@ -361,7 +362,7 @@ int quadrature_degree(CellType type, std::string_view name) {
 }
 
 std::string_view stiffness_family(CellType type, Formulation formulation) {
-  if (const int fields = mixed_field_count(formulation); fields > 0) return mixed_family(type, fields);
+  if (mixed_field_count(formulation) > 0) return mixed_family(type, formulation);
   // The radius raises the degree by one; on quadrangles the full family has it to spare.
   if (is_axisymmetric(formulation) && type == CellType::tria6) return "FPG6";
   if (!is_reduced(formulation)) return full_family(type);
