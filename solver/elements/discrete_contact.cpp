@@ -11,7 +11,7 @@ namespace comma::solver {
 
 namespace {
 
-constexpr int variables_of_contact = 4;
+constexpr int variables_of_contact = 9;
 constexpr int largest_size = 2 * component_count;
 using ElementVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, largest_size, 1>;
 using ElementMatrix =
@@ -19,9 +19,11 @@ using ElementMatrix =
 
 class DiscreteContact final : public DiscreteElements {
  public:
-  DiscreteContact(const BlockInput& input, std::vector<int> cells)
-      : DiscreteElements(input, std::move(cells)), slips_(cells_.size(), Eigen::Vector2d::Zero()) {
-    for (const int cell : cells_) members_.push_back(member(input, cell));
+  DiscreteContact(const BlockInput& input, std::vector<int> cells) : DiscreteElements(input, std::move(cells)) {
+    for (const int cell : cells_) {
+      members_.push_back(member(input, cell));
+      past_.push_back({Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), members_.back().first_gap});
+    }
   }
 
   void add_stiffness(const Eigen::VectorXd& u, const VariableState&, std::span<const int> column_starts,
@@ -41,6 +43,7 @@ class DiscreteContact final : public DiscreteElements {
       Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero();
       if (answer(element, u).status != ContactSpringStatus::open)
         stiffness.diagonal() << spring.normal, spring.tangential, spring.tangential;
+      stiffness.bottomRightCorner<2, 2>() += at(element).across;
       const ElementMatrix k = tangent(element, stiffness);
       map_.add(element, k.data(), column_starts, values);
     }
@@ -114,12 +117,14 @@ class DiscreteContact final : public DiscreteElements {
   int variable_count() const override { return variables_of_contact; }
   void variables(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
-      const ContactSpringResponse reached = answer(element, u);
-      const auto own = out.subspan(static_cast<std::size_t>(element * variables_of_contact));
-      own[0] = reached.slip[0];
-      own[1] = reached.slip[1];
-      own[2] = static_cast<double>(reached.status);
-      own[3] = gap(element, u);
+      const auto own = out.subspan(static_cast<std::size_t>(element * variables_of_contact), variables_of_contact);
+      const Eigen::Vector2d friction = answer(element, u).force.tail<2>() - force_across(element, u);
+      const Eigen::Vector2d slid = slid_by(element, u);
+      std::ranges::fill(own, 0.0);
+      std::ranges::copy(friction, own.begin());
+      std::ranges::copy(slid, own.begin() + slid_variable);
+      own[segment_variable] = node_count_ == 2 ? 1.0 : 0.0;
+      own[segment_variable + 1] = 1.0;
     }
   }
 
@@ -132,24 +137,30 @@ class DiscreteContact final : public DiscreteElements {
   }
 
   void accept(const Eigen::VectorXd& u, const VariableState&) override {
-    for (int element = 0; element < map_.element_count(); ++element)
-      slips_[static_cast<std::size_t>(element)] = answer(element, u).slip;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const Eigen::Vector2d slid = slid_by(element, u);
+      past_[static_cast<std::size_t>(element)] = {answer(element, u).slip, slid, gap(element, u)};
+    }
   }
 
   /// Without variables the force tells how far it had slipped.
   void resume(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported,
               std::span<const double> variables) override {
     for (int element = 0; element < map_.element_count(); ++element) {
-      Eigen::Vector2d& slip = slips_[static_cast<std::size_t>(element)];
+      Past& past = past_[static_cast<std::size_t>(element)];
+      past = {displacement(element, u).tail<2>(), Eigen::Vector2d::Zero(), gap(element, u)};
+      Eigen::Vector2d friction = Eigen::Vector2d::Zero();
       if (!variables.empty()) {
-        slip = Eigen::Map<const Eigen::Vector2d>(variables.data() + element * variables_of_contact);
-        continue;
+        const double* own = variables.data() + element * variables_of_contact;
+        friction = Eigen::Map<const Eigen::Vector2d>(own);
+        past.slid = Eigen::Map<const Eigen::Vector2d>(own + slid_variable);
+      } else if (!reported.empty()) {
+        for (int c = 1; c < translations_; ++c)
+          friction[c - 1] = reported[static_cast<std::size_t>(element * map_.components() + c)];
+        friction -= force_across(element, u);
       }
-      slip = displacement(element, u).tail<2>();
       const double stiffness = at(element).spring->tangential;
-      if (reported.empty() || stiffness == 0.0) continue;
-      for (int c = 1; c < translations_; ++c)
-        slip[c - 1] -= reported[static_cast<std::size_t>(element * map_.components() + c)] / stiffness;
+      if (stiffness > 0.0 && past.gap <= 0.0) past.slip -= friction / stiffness;
     }
   }
 
@@ -159,7 +170,15 @@ class DiscreteContact final : public DiscreteElements {
     Eigen::Matrix3d axes;
     double first_gap;         ///< undisplaced
     ElementMatrix rotations;  ///< the element's stiffness without its translations
+    Eigen::Matrix2d across;   ///< that across the first own axis
   };
+  /// Where the step began.
+  struct Past {
+    Eigen::Vector2d slip;  ///< the part of the sideways displacement that friction does not come from
+    Eigen::Vector2d slid;  ///< how far it has slid while closed
+    double gap;
+  };
+  static constexpr int slid_variable = 2, segment_variable = 7;
 
   const Member& at(int element) const { return members_[static_cast<std::size_t>(element)]; }
 
@@ -179,7 +198,15 @@ class DiscreteContact final : public DiscreteElements {
       throw Error("invalid-material",
                   fmt::format("the contact of the discrete element on cell {} needs a normal stiffness above zero",
                               mesh_.cell_name(cell)));
-    return {&spring, stiffness.axes, first_gap(spring, cell, stiffness.axes), rotation_stiffness(stiffness, cell)};
+    return {&spring, stiffness.axes, first_gap(spring, cell, stiffness.axes), rotation_stiffness(stiffness, cell),
+            stiffness_across(stiffness)};
+  }
+
+  Eigen::Matrix2d stiffness_across(const DiscreteStiffness& stiffness) const {
+    Eigen::Matrix3d translations = Eigen::Matrix3d::Zero();
+    translations.topLeftCorner(translations_, translations_) =
+        stiffness.matrix.topLeftCorner(translations_, translations_);
+    return (stiffness.axes * translations * stiffness.axes.transpose()).bottomRightCorner<2, 2>();
   }
 
   double first_gap(const ContactSpring& spring, int cell, const Eigen::Matrix3d& axes) const {
@@ -237,10 +264,44 @@ class DiscreteContact final : public DiscreteElements {
     return at(element).first_gap + displacement(element, u)[0];
   }
 
+  Eigen::Vector2d force_across(int element, const Eigen::VectorXd& u) const {
+    return at(element).across * displacement(element, u).tail<2>();
+  }
+
+  /// Which share of the step's displacement goes by before an open gap closes; 0 where it was closed, or stays open.
+  double open_share(int element, double gap) const {
+    const double before = past_[static_cast<std::size_t>(element)].gap;
+    return before > 0.0 && gap < 0.0 ? before / (before - gap) : 0.0;
+  }
+  /// The slip where friction begins to grow in the step: of an open gap that of where it closes.
+  Eigen::Vector2d first_slip(int element, const Eigen::Vector3d& moved) const {
+    const Eigen::Vector2d& slip = past_[static_cast<std::size_t>(element)].slip;
+    return slip + open_share(element, at(element).first_gap + moved[0]) * (moved.tail<2>() - slip);
+  }
+
   ContactSpringResponse answer(int element, const Eigen::VectorXd& u) const {
     const Eigen::Vector3d moved = displacement(element, u);
-    return respond(*at(element).spring, at(element).first_gap + moved[0], moved.tail<2>(),
-                   slips_[static_cast<std::size_t>(element)]);
+    const double now = at(element).first_gap + moved[0];
+    ContactSpringResponse response = respond(*at(element).spring, now, moved.tail<2>(), first_slip(element, moved));
+    if (const double open = open_share(element, now); open > 0.0) {
+      // The first slip follows the displacements.
+      const Past& past = past_[static_cast<std::size_t>(element)];
+      const Eigen::Matrix2d sideways = response.tangent.bottomRightCorner<2, 2>();
+      const double rate = past.gap / ((past.gap - now) * (past.gap - now));
+      response.tangent.bottomLeftCorner<2, 1>() -= rate * sideways * (moved.tail<2>() - past.slip);
+      response.tangent.bottomRightCorner<2, 2>() *= 1.0 - open;
+    }
+    response.force.tail<2>() += at(element).across * moved.tail<2>();
+    response.tangent.bottomRightCorner<2, 2>() += at(element).across;
+    return response;
+  }
+
+  /// How far it has slid while closed, at the end of the step.
+  Eigen::Vector2d slid_by(int element, const Eigen::VectorXd& u) const {
+    const ContactSpringResponse reached = answer(element, u);
+    const Eigen::Vector2d& before = past_[static_cast<std::size_t>(element)].slid;
+    if (reached.status == ContactSpringStatus::open) return before;
+    return before + reached.slip - first_slip(element, displacement(element, u));
   }
 
   ElementVector rotation_forces(int element, const Eigen::VectorXd& u) const {
@@ -276,7 +337,7 @@ class DiscreteContact final : public DiscreteElements {
   }
 
   std::vector<Member> members_;
-  std::vector<Eigen::Vector2d> slips_;  ///< where the step began
+  std::vector<Past> past_;
 };
 
 }  // namespace

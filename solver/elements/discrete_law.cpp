@@ -12,6 +12,8 @@ namespace comma::solver {
 namespace {
 
 constexpr int most_components = component_count;
+constexpr int axis_count = 6;
+constexpr int variables_of_axis = 3;  ///< of a spring that flows
 using Components = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, most_components, 1>;
 using ComponentMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, most_components, most_components>;
@@ -63,14 +65,25 @@ class DiscreteLaw final : public DiscreteElements {
   }
   bool has_memory() const override { return true; }
 
-  int variable_count() const override { return is_bilinear() ? translations_ : map_.components(); }
+  /// Of all six axes, whether the element has them or not, as Code_Aster numbers them: the stage of each, or what it
+  /// remembers.
+  int variable_count() const override { return is_bilinear() ? axis_count : axis_count * variables_of_axis; }
   void variables(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     const int count = variable_count();
+    std::ranges::fill(out, 0.0);
     for (int element = 0; element < map_.element_count(); ++element) {
       const Answer reached = answer(element, u, state);
-      for (int c = 0; c < count; ++c)
-        out[static_cast<std::size_t>(element * count + c)] =
-            is_bilinear() ? stage(element, c, reached) : reached.plastic[c];
+      double* own = out.data() + element * count;
+      for (int c = 0; c < map_.components(); ++c) {
+        if (is_bilinear()) {
+          own[axis(c)] = stage(element, c, reached);
+          continue;
+        }
+        const SpringPast& now = reached.past[static_cast<std::size_t>(c)];
+        own[variables_of_axis * axis(c)] = now.plastic;
+        own[variables_of_axis * axis(c) + 1] = now.flowed;
+        own[variables_of_axis * axis(c) + 2] = now.spent;
+      }
     }
   }
 
@@ -84,23 +97,32 @@ class DiscreteLaw final : public DiscreteElements {
 
   void accept(const Eigen::VectorXd& u, const VariableState& state) override {
     for (int element = 0; element < map_.element_count(); ++element)
-      members_[static_cast<std::size_t>(element)].plastic = answer(element, u, state).plastic;
+      members_[static_cast<std::size_t>(element)].past = answer(element, u, state).past;
   }
 
-  /// Without variables the force tells what is plastic.
+  /// Without variables the force tells what is plastic, and how far the centre has moved if it flowed just now.
   void resume(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported,
               std::span<const double> variables) override {
     if (is_bilinear()) return;
     const int k = map_.components();
     for (int element = 0; element < map_.element_count(); ++element) {
       Member& own = members_[static_cast<std::size_t>(element)];
-      if (!variables.empty())
-        own.plastic = Eigen::Map<const Components>(variables.data() + element * k, k);
-      else if (!reported.empty()) {
+      if (!variables.empty()) {
+        const double* from = variables.data() + element * variable_count();
+        for (int c = 0; c < k; ++c) {
+          const double* of_axis = from + variables_of_axis * axis(c);
+          own.past[static_cast<std::size_t>(c)] = {of_axis[0], of_axis[1], of_axis[2]};
+        }
+      } else if (!reported.empty()) {
         const Components moved = displacement(element, u);
-        for (int c = 0; c < k; ++c)
-          if (hardening(element, c) != nullptr)
-            own.plastic[c] = moved[c] - reported[static_cast<std::size_t>(element * k + c)] / own.stiffness[c];
+        for (int c = 0; c < k; ++c) {
+          const HardeningSpring* law = hardening(element, c);
+          if (law == nullptr) continue;
+          const double force = reported[static_cast<std::size_t>(element * k + c)];
+          const double beyond = std::max(0.0, std::abs(force) - law->yield);
+          own.past[static_cast<std::size_t>(c)] = {moved[c] - force / own.stiffness[c],
+                                                   flowed_for_centre(*law, std::copysign(beyond, force)), 0.0};
+        }
       }
     }
   }
@@ -108,12 +130,13 @@ class DiscreteLaw final : public DiscreteElements {
  private:
   struct Member {
     const SpringLaws* laws;
-    ComponentMatrix turn;  ///< from the components in global axes to those in own ones
-    Components stiffness;  ///< of each component, in own axes
-    Components plastic;    ///< where the step began
+    ComponentMatrix turn;                       ///< from the components in global axes to those in own ones
+    Components stiffness;                       ///< of each component, in own axes
+    std::array<SpringPast, axis_count> past{};  ///< where the step began
   };
   struct Answer {
-    Components force, tangent, plastic;
+    Components force, tangent;
+    std::array<SpringPast, axis_count> past;
   };
 
   bool is_bilinear() const { return relation_ == Relation::bilinear_spring; }
@@ -142,7 +165,7 @@ class DiscreteLaw final : public DiscreteElements {
           fmt::format("the discrete element on cell {} has a law that its material lacks", mesh_.cell_name(cell)),
           fmt::format("give it {} in DEFI_MATERIAU", is_bilinear() ? "DIS_BILI_ELAS" : "DIS_ECRO_CINE"));
     const int k = map_.components();
-    Member made{&material->springs, turn_of(stiffness.axes), Components::Zero(k), Components::Zero(k)};
+    Member made{&material->springs, turn_of(stiffness.axes), Components::Zero(k), {}};
     const ComponentMatrix own = made.turn * stiffness.matrix.topLeftCorner(k, k) * made.turn.transpose();
     made.stiffness = own.diagonal();
     if (!is_diagonal(stiffness.matrix, made))
@@ -206,15 +229,15 @@ class DiscreteLaw final : public DiscreteElements {
   Answer answer(int element, const Eigen::VectorXd& u, const VariableState& state) const {
     const Member& own = at(element);
     const Components moved = displacement(element, u);
-    Answer result{own.stiffness.cwiseProduct(moved), own.stiffness, own.plastic};
+    Answer result{own.stiffness.cwiseProduct(moved), own.stiffness, own.past};
     for (int c = 0; c < map_.components(); ++c) {
       SpringResponse response{result.force[c], result.tangent[c]};
       if (const BilinearSpring* law = bilinear(element, c)) {
         const MaterialPoint at = middle(element, state);
         response = bilinear_response(law->first(at), law->last(at), law->bound, moved[c]);
       } else if (const HardeningSpring* flow = hardening(element, c)) {
-        response = hardening_response(*flow, own.stiffness[c], moved[c], own.plastic[c]);
-        result.plastic[c] = response.plastic;
+        response = hardening_response(*flow, own.stiffness[c], moved[c], own.past[static_cast<std::size_t>(c)]);
+        result.past[static_cast<std::size_t>(c)] = response.reached;
       }
       result.force[c] = response.force;
       result.tangent[c] = response.tangent;

@@ -31,16 +31,17 @@ TEST_CASE("a spring that hardens lies on its yield surface, with the derivative 
                                      HardeningSpring{3.0, 50.0, 7.0, 0.3}, HardeningSpring{3.0, 0.0, 0.0, 0.0}}) {
     for (const double start : {0.0, 0.4, -1.0}) {
       for (const double displacement : {-30.0, -1.0, 0.1, 0.7, 4.0}) {
-        const SpringResponse response = hardening_response(law, stiffness, displacement, start);
-        CHECK(response.force == exactly(stiffness * (displacement - response.plastic)));
-        const double apart = response.force - centre(law, response.plastic);
+        const SpringPast past{start, 0.5 * start, 0.0};
+        const SpringResponse response = hardening_response(law, stiffness, displacement, past);
+        CHECK(response.force == exactly(stiffness * (displacement - response.reached.plastic)));
+        const double apart = response.force - centre(law, response.reached.flowed);
         CHECK(std::abs(apart) <= law.yield * (1.0 + 1e-12));
-        if (response.plastic == start) continue;
+        if (response.reached.flowed == past.flowed) continue;
         CHECK(std::abs(apart) == Approx(law.yield).epsilon(1e-12));
-        CHECK((response.plastic - start) * apart > 0.0);
+        CHECK((response.reached.flowed - past.flowed) * apart > 0.0);
         constexpr double h = 1e-6;
-        const double slope = (hardening_response(law, stiffness, displacement + h, start).force -
-                              hardening_response(law, stiffness, displacement - h, start).force) /
+        const double slope = (hardening_response(law, stiffness, displacement + h, past).force -
+                              hardening_response(law, stiffness, displacement - h, past).force) /
                              (2.0 * h);
         CHECK(response.tangent == Approx(slope).epsilon(1e-6).margin(1e-7));
       }
@@ -48,11 +49,18 @@ TEST_CASE("a spring that hardens lies on its yield surface, with the derivative 
   }
 }
 
-TEST_CASE("a spring that hardens up to a limit is pulled along the curve of the manual") {
-  const HardeningSpring law{3.0, 1.0, 2.0, 4.0};
-  // X = 3 of the force 6: a = 3 / sqrt(1 - 9 / 16).
-  const double plastic = 3.0 / std::sqrt(1.0 - 9.0 / 16.0);
-  CHECK(hardening_response(law, 2.0, 3.0 + plastic, 0.0).force == Approx(6.0).epsilon(1e-13));
+TEST_CASE("a spring that hardens is pulled as in Code_Aster 17.3, and back, in one step or several") {
+  const HardeningSpring law{20.0, 50.0, 2.0, 25.0};
+  constexpr double stiffness = 500.0;
+  SpringPast past;
+  for (const double displacement : {0.025, 0.05, 0.075, 0.1})
+    past = hardening_response(law, stiffness, displacement, past).reached;
+  CHECK(past.plastic == Approx(0.054042739).epsilon(1e-8));
+  CHECK(past.flowed == Approx(0.06).epsilon(1e-13));
+  CHECK(past.spent == Approx(1.16160688).epsilon(1e-8));
+  CHECK(hardening_response(law, stiffness, 0.1, {}).force == Approx(22.9786305).epsilon(1e-8));
+  CHECK(hardening_response(law, stiffness, 0.01, past).force == Approx(-17.512407).epsilon(1e-8));
+  CHECK(flowed_for_centre(law, centre(law, 0.06)) == Approx(0.06).epsilon(1e-12));
 }
 
 }  // namespace spring_law_test
