@@ -317,8 +317,9 @@ void warn_of_odd_variables(const interpreter::Call& call, const solver::StaticPr
   for (int cell = 0; cell < problem.model->mesh->cell_count(); ++cell) {
     const solver::CellBehaviour& law = (*problem.behaviours)[static_cast<std::size_t>(cell)];
     const auto names = solver::variable_names(law);
-    // The multiplicative split has more of them than names.
-    const int known = law.kinematics == solver::Kinematics::multiplicative ? width : static_cast<int>(names.size());
+    // In plane stress VMIS_ISOT_NL keeps the strain across the plane, which has no name here.
+    const int unnamed = law.relation == solver::Relation::isotropic_nonlinear ? 1 : 0;
+    const int known = static_cast<int>(names.size()) + unnamed;
     if (names.empty() || names.front() == "VIDE" || problem.model->components_of(cell) == 0) continue;
     for (int point = 0; point < variables.points(cell); ++point) {
       for (int k = known; k < width; ++k) {

@@ -27,6 +27,10 @@ std::vector<std::string> names_of_relation(const CellBehaviour& behaviour) {
     case Relation::isotropic_traction:
     case Relation::isotropic_power:
       return {"EPSPEQ", "INDIPLAS"};
+    case Relation::reversible_linear:
+    case Relation::reversible_traction:
+    case Relation::reversible_power:
+      return {"EPSPEQ"};
     case Relation::isotropic_nonlinear: {
       std::vector<std::string> names = {"EPSPEQ", "INDIPLAS"};
       if (behaviour.kinematics != Kinematics::multiplicative) add_tensor(names, "EPSP");
@@ -122,10 +126,12 @@ Field named(const NodalField& field, const BehaviourOfCells* behaviours) {
 }  // namespace
 
 std::vector<std::string> variable_names(const CellBehaviour& behaviour) {
-  // What the multiplicative split and beams that turn keep has no names in the pages at hand.
+  // What beams that turn keep has no names in the pages at hand.
   if (behaviour.kinematics == Kinematics::large_rotations) return {};
   std::vector<std::string> names = names_of_relation(behaviour);
   if (behaviour.kinematics == Kinematics::logarithmic && !names.empty()) add_tensor(names, "T");
+  if (behaviour.kinematics == Kinematics::multiplicative && !names.empty())
+    for (int i = 1; i <= 6; ++i) names.push_back(fmt::format("SM{}", i));
   return names;
 }
 

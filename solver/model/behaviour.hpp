@@ -17,10 +17,13 @@ enum class Kinematics : std::uint8_t {
 
 enum class Relation : std::uint8_t {
   elastic,
-  hyperelastic,         ///< rubber, in Green and Lagrange's strains (R5.03.19)
-  isotropic_linear,     ///< von Mises, isotropic hardening linear in the plastic strain (R5.03.02)
-  isotropic_traction,   ///< ... by a traction curve
-  isotropic_power,      ///< ... by a power law
+  hyperelastic,        ///< rubber, in Green and Lagrange's strains (R5.03.19)
+  isotropic_linear,    ///< von Mises, isotropic hardening linear in the plastic strain (R5.03.02)
+  isotropic_traction,  ///< ... by a traction curve
+  isotropic_power,     ///< ... by a power law
+  reversible_linear,   ///< elasticity along the curves of isotropic hardening (Hencky): no flow, no memory (R5.03.20)
+  reversible_traction,
+  reversible_power,
   isotropic_nonlinear,  ///< ... by saturating exponentials and a power
   kinematic_linear,     ///< von Mises, the centre of the yield surface moving with the plastic strain
   mixed_linear,         ///< both, the isotropic part linear (R5.03.16)
@@ -39,6 +42,12 @@ struct CellBehaviour {
 
   auto operator<=>(const CellBehaviour&) const = default;
 };
+
+/// Elasticity along a curve of hardening.
+constexpr bool is_reversible(Relation relation) {
+  return relation == Relation::reversible_linear || relation == Relation::reversible_traction ||
+         relation == Relation::reversible_power;
+}
 
 /// Whether stresses depend on more than the displacements of the moment.
 constexpr bool has_memory(const CellBehaviour& behaviour) {

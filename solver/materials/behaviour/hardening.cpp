@@ -155,9 +155,11 @@ void set_elasticity(double young, double poisson, PlasticPoint& point) {
 const char* keyword_of(Relation relation) {
   switch (relation) {
     case Relation::isotropic_traction:
+    case Relation::reversible_traction:
     case Relation::mixed_traction:
       return "TRACTION";
     case Relation::isotropic_power:
+    case Relation::reversible_power:
       return "ECRO_PUIS";
     case Relation::isotropic_nonlinear:
       return "ECRO_NL";
@@ -221,6 +223,7 @@ PlasticPoint point_of_relation(const IsotropicElasticity& elasticity, const Plas
       point.hyperelasticity = &*plasticity.hyperelasticity;
       return point;
     case Relation::isotropic_linear:
+    case Relation::reversible_linear:
     case Relation::mixed_linear:
       if (!plasticity.linear) throw_missing(keyword_of(relation));
       point.curve = linear_curve(*plasticity.linear, elastic.young, point.kinematic, at);
@@ -231,6 +234,7 @@ PlasticPoint point_of_relation(const IsotropicElasticity& elasticity, const Plas
       point.curve = PiecewiseCurve{{{0.0, plasticity.linear->yield(at)}}, 0.0, false};
       return point;
     case Relation::isotropic_traction:
+    case Relation::reversible_traction:
     case Relation::mixed_traction: {
       if (!plasticity.traction) throw_missing(keyword_of(relation));
       auto [curve, young] = traction_curve(*plasticity.traction, at);
@@ -246,7 +250,8 @@ PlasticPoint point_of_relation(const IsotropicElasticity& elasticity, const Plas
       point.curve = linear_curve(plasticity.asymmetric->tension, elastic.young, 0.0, at);
       point.compression = linear_curve(plasticity.asymmetric->compression, elastic.young, 0.0, at);
       return point;
-    case Relation::isotropic_power: {
+    case Relation::isotropic_power:
+    case Relation::reversible_power: {
       if (!plasticity.power) throw_missing(keyword_of(relation));
       const PowerHardening& law = *plasticity.power;
       const double power = 1.0 / law.exponent;
@@ -275,10 +280,12 @@ bool is_constant(const IsotropicElasticity& elasticity, const Plasticity& plasti
   if (is_mixed(relation) && plasticity.prager && !plasticity.prager->is_constant()) return false;
   switch (relation) {
     case Relation::isotropic_linear:
+    case Relation::reversible_linear:
     case Relation::kinematic_linear:
     case Relation::mixed_linear:
       return plasticity.linear && plasticity.linear->slope.is_constant() && plasticity.linear->yield.is_constant();
     case Relation::isotropic_traction:
+    case Relation::reversible_traction:
     case Relation::mixed_traction:
       return plasticity.traction && plasticity.traction->curves.size() == 1;
     default:

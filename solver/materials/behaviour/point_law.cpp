@@ -59,6 +59,13 @@ double free_volume(double expansion) {
   return j;
 }
 
+/// b of determinant 1 out of the variables (I - b) / 2 of the whole elastic part.
+Eigen::Matrix3d elastic_part(const double* variables) {
+  const Eigen::Matrix3d b =
+      Eigen::Matrix3d::Identity() - 2.0 * tensor_of_stress(Vector6d(Eigen::Map<const Vector6d>(variables)));
+  return b / std::cbrt(b.determinant());
+}
+
 /// The strain across the plane in plane stress: all volume is elastic or thermal.
 double strain_across(const Vector6d& strain, const Vector6d& stress, const Vector6d& inelastic,
                      const PlasticModuli& now) {
@@ -83,6 +90,10 @@ PointLaw::PointLaw(const CellBehaviour& behaviour, bool in_plane) : behaviour_(b
       throw Error("unsupported", "rubber has large strains on the initial geometry",
                   "take DEFORMATION='GREEN_LAGRANGE'");
   }
+  if (is_reversible(behaviour.relation) && behaviour.kinematics != Kinematics::small &&
+      behaviour.kinematics != Kinematics::green_lagrange)
+    throw Error("unsupported", "elasticity along a curve of hardening has small strains, or Green and Lagrange's",
+                "take DEFORMATION='PETIT' or 'GREEN_LAGRANGE'");
   if (behaviour.kinematics != Kinematics::multiplicative) return;
   if (in_plane)
     throw Error("unsupported", "the multiplicative split of strains is not known in plane stress",
@@ -96,6 +107,9 @@ int PointLaw::own_count() const {
   switch (behaviour_.relation) {
     case Relation::elastic:
     case Relation::hyperelastic:
+    case Relation::reversible_linear:
+    case Relation::reversible_traction:
+    case Relation::reversible_power:
       return 1;
     case Relation::kinematic_linear:
       return tensor_size + 1;
@@ -103,7 +117,7 @@ int PointLaw::own_count() const {
     case Relation::mixed_traction:
       return 2 + tensor_size;
     case Relation::isotropic_nonlinear:
-      return keeps_plastic_strain() ? 2 + tensor_size : 2;
+      return keeps_plastic_strain() ? 2 + tensor_size + (keeps_strain_across() ? 1 : 0) : 2;
     default:
       return 2;
   }
@@ -114,10 +128,18 @@ bool PointLaw::keeps_plastic_strain() const {
   return behaviour_.relation == Relation::isotropic_nonlinear && behaviour_.kinematics != Kinematics::multiplicative;
 }
 
+// In small strains alone: Code_Aster has VMIS_ISOT_NL in plane stress by De Borst's method, which keeps it, and refuses
+// it with GDEF_LOG.
+bool PointLaw::keeps_strain_across() const {
+  return behaviour_.relation == Relation::isotropic_nonlinear && in_plane_ &&
+         (behaviour_.kinematics == Kinematics::small || behaviour_.kinematics == Kinematics::updated);
+}
+
 int PointLaw::variable_count() const { return own_count() + (keeps_tensor(behaviour_.kinematics) ? tensor_size : 0); }
 
 PlasticState PointLaw::state_of(const PointPast& past) const {
   PlasticState state;
+  if (is_reversible(behaviour_.relation)) return state;
   state.stress = past.stress;
   const auto& v = past.variables;
   switch (behaviour_.relation) {
@@ -155,13 +177,17 @@ void PointLaw::write(const PlasticState& state, PointResponse& response) const {
       [[fallthrough]];
     default:
       v[0] = state.p;
-      v[1] = state.flowing ? 1.0 : 0.0;
+      if (!is_reversible(behaviour_.relation)) v[1] = state.flowing ? 1.0 : 0.0;
   }
 }
 
 void PointLaw::write_plastic_strain(const PointInput& input, const Vector6d& increment, const PlasticState& state,
                                     PointResponse& response) const {
   if (!keeps_plastic_strain()) return;
+  if (keeps_strain_across()) {
+    const Vector6d total = small_strain(input.gradient);
+    response.variables[2 + tensor_size] = strain_across(total, state.stress, input.inelastic, input.constants);
+  }
   const Eigen::Map<const Vector6d> before(input.past.variables.data() + 2);
   Eigen::Map<Vector6d> plastic(response.variables.data() + 2);
   plastic = before;
@@ -184,9 +210,14 @@ PlasticResponse PointLaw::integrate(const PointInput& input, const PlasticPoint&
                    : integrate_von_mises(past.moduli, now, state, increment);
 }
 
+/// The strain that the law sees, less that of the command variables: of what is reversible the whole one.
+Vector6d PointLaw::since_last(const PointInput& input, Vector6d (*strain)(const Eigen::Matrix3d&)) const {
+  const Vector6d now = strain(input.gradient) - input.inelastic;
+  return is_reversible(behaviour_.relation) ? now : now - (strain(input.past.gradient) - input.past.inelastic);
+}
+
 PointResponse PointLaw::small(const PointInput& input, const PlasticPoint& now) const {
-  const Vector6d increment =
-      small_strain(input.gradient) - small_strain(input.past.gradient) - (input.inelastic - input.past.inelastic);
+  const Vector6d increment = since_last(input, small_strain);
   const PlasticResponse result = integrate(input, now, increment);
   const Vector6d& stress = result.state.stress;
   PointResponse response{stress, result.tangent, stress, stress, {}};
@@ -225,7 +256,8 @@ PointResponse PointLaw::logarithmic(const PointInput& input, const PlasticPoint&
   const Vector6d& t = result.state.stress;
   PointResponse response{strain.second_stress(t), strain.second_tangent(result.tangent, t), Vector6d::Zero(), t, {}};
   response.reported = cauchy_stress(input.gradient, response.stress);
-  if (in_plane_) response.reported /= std::exp(strain_across(strain.strain(), t, input.inelastic, now));
+  // As Code_Aster 17.3 has it, the thickness does not expand with the strains of command variables.
+  if (in_plane_) response.reported /= std::exp(strain_across(strain.strain(), t, Vector6d::Zero(), now));
   write(result.state, response);
   write_plastic_strain(input, increment, result.state, response);
   Eigen::Map<Vector6d>(response.variables.data() + own_count()) = t;
@@ -240,9 +272,7 @@ PointResponse PointLaw::multiplicative(const PointInput& input, const PlasticPoi
                 "take DEFORMATION='GDEF_LOG'");
   }
   const PlasticState past = state_of(input.past);
-  const Eigen::Map<const Vector6d> compression(input.past.variables.data() + own_count());
-  const MultiplicativeState state{Eigen::Matrix3d::Identity() - 2.0 * tensor_of_stress(compression), past.p,
-                                  past.flowing};
+  const MultiplicativeState state{elastic_part(input.past.variables.data() + own_count()), past.p, past.flowing};
   const MultiplicativeResponse result =
       integrate_multiplicative(now, state, input.past.gradient, input.gradient, input.inelastic[0]);
   PointResponse response{
@@ -251,8 +281,9 @@ PointResponse PointLaw::multiplicative(const PointInput& input, const PlasticPoi
   reached.p = result.state.p;
   reached.flowing = result.state.flowing;
   write(reached, response);
+  const double volume = std::cbrt(deformation_gradient(input.gradient).determinant());
   Eigen::Map<Vector6d>(response.variables.data() + own_count()) =
-      components_of_stress(0.5 * (Eigen::Matrix3d::Identity() - result.state.elastic));
+      components_of_stress(0.5 * (Eigen::Matrix3d::Identity() - volume * volume * result.state.elastic));
   return response;
 }
 
@@ -272,19 +303,6 @@ PointResponse PointLaw::respond_with(const PointInput& input, const PlasticPoint
   }
 }
 
-/// In plane stress the thickness takes part, which the second stress decides itself: a few rounds settle it.
-Vector6d PointLaw::second_stress(const Eigen::Matrix3d& gradient, const Vector6d& reported,
-                                 const PointPast& past) const {
-  const Vector6d on_initial_thickness = second_stress_of(gradient, reported);
-  if (!in_plane_ || behaviour_.relation == Relation::hyperelastic) return on_initial_thickness;
-  constexpr int rounds = 30;
-  Vector6d stress = on_initial_thickness;
-  for (int round = 0; round < rounds; ++round)
-    stress = std::sqrt(1.0 + 2.0 * strain_across(green_strain(gradient), stress, past.inelastic, past.moduli)) *
-             on_initial_thickness;
-  return stress;
-}
-
 Vector6d PointLaw::own_stress(const PointPast& past, const Vector6d& reported, bool has_variables) const {
   switch (behaviour_.kinematics) {
     case Kinematics::small:
@@ -292,7 +310,7 @@ Vector6d PointLaw::own_stress(const PointPast& past, const Vector6d& reported, b
     case Kinematics::updated:
       return reported;
     case Kinematics::green_lagrange:
-      return second_stress(past.gradient, reported, past);
+      return second_stress_of(past.gradient, reported);
     case Kinematics::logarithmic:
       if (has_variables) return Eigen::Map<const Vector6d>(past.variables.data() + own_count());
       return LogarithmicStrain(past.gradient).stress_of(second_stress_of(past.gradient, reported));
@@ -310,11 +328,9 @@ double PointLaw::elastic_energy(const PointPast& at, const PlasticPoint& constan
   if (behaviour_.kinematics == Kinematics::multiplicative) {
     const double j = deformation_gradient(at.gradient).determinant();
     const double rest = free_volume(at.inelastic[0]);
-    const double compression = at.variables[static_cast<std::size_t>(own_count())] +
-                               at.variables[static_cast<std::size_t>(own_count() + 1)] +
-                               at.variables[static_cast<std::size_t>(own_count() + 2)];
-    return volume_energy(constants.bulk, at.inelastic[0], j) - volume_energy(constants.bulk, at.inelastic[0], rest) -
-           constants.shear * compression;
+    const double stretch = elastic_part(at.variables.data() + own_count()).trace() - 3.0;
+    return volume_energy(constants.bulk, at.inelastic[0], j) - volume_energy(constants.bulk, at.inelastic[0], rest) +
+           0.5 * constants.shear * stretch;
   }
   const double pressure = at.stress.head<3>().sum() / 3.0;
   Vector6d deviator = at.stress;
@@ -324,13 +340,11 @@ double PointLaw::elastic_energy(const PointPast& at, const PlasticPoint& constan
 }
 
 PointResponse PointLaw::green(const PointInput& input, const PlasticPoint& now) const {
-  const Vector6d strain = green_strain(input.gradient);
-  const Vector6d increment = strain - green_strain(input.past.gradient) - (input.inelastic - input.past.inelastic);
+  const Vector6d increment = since_last(input, green_strain);
   deformation_gradient(input.gradient);  // which must not be turned inside out
   const PlasticResponse result = integrate(input, now, increment);
   const Vector6d& stress = result.state.stress;
   PointResponse response{stress, result.tangent, cauchy_stress(input.gradient, stress), stress, {}};
-  if (in_plane_) response.reported /= std::sqrt(1.0 + 2.0 * strain_across(strain, stress, input.inelastic, now));
   write(result.state, response);
   write_plastic_strain(input, increment, result.state, response);
   return response;
@@ -346,7 +360,7 @@ PointResponse PointLaw::rubber(const PointInput& input, const PlasticPoint& now)
     result.stress[across] = 0.0;
     result.tangent -= (result.tangent.col(across) * result.tangent.row(across) / result.tangent(across, across)).eval();
   }
-  return {result.stress, result.tangent, cauchy_stress(gradient, result.stress), result.stress, {}};
+  return {result.stress, result.tangent, cauchy_stress(input.gradient, result.stress), result.stress, {}};
 }
 
 PointResponse PointLaw::respond(const PointInput& input) const { return respond_with(input, input.constants); }
@@ -359,8 +373,8 @@ PointResponse PointLaw::respond_elastically(const PointInput& input) const {
 
 PointResponse PointLaw::begin(const PointInput& input) const {
   const PointPast& past = input.past;
-  const bool is_known =
-      behaviour_.relation != Relation::hyperelastic && behaviour_.kinematics != Kinematics::multiplicative;
+  const bool is_known = behaviour_.relation != Relation::hyperelastic && !is_reversible(behaviour_.relation) &&
+                        behaviour_.kinematics != Kinematics::multiplicative;
   const bool has_changed = input.inelastic != past.inelastic || input.constants.shear != past.moduli.shear ||
                            input.constants.bulk != past.moduli.bulk;
   if (!is_known || !has_changed || past.moduli.shear == 0.0 || input.gradient != past.gradient) return respond(input);

@@ -38,8 +38,8 @@ struct PointResponse {
   /// Whose work on the strain is that of the forces: in large strains the second Piola-Kirchhoff stress.
   Vector6d stress;
   Matrix6d tangent;   ///< its derivative by the (Green-Lagrange) strain
-  Vector6d reported;  ///< the stress that results show: Cauchy's in large strains, on the thickness as it has become in
-                      ///< plane stress
+  Vector6d reported;  ///< the stress that results show: Cauchy's in large strains, in plane stress on the thickness as
+                      ///< it has become by logarithmic strains, on the initial one by Green and Lagrange's
   Vector6d own = Vector6d::Zero();  ///< the stress of the law's own strain, which the next step begins with
   std::array<double, most_variables> variables{};
 };
@@ -58,10 +58,11 @@ class PointLaw {
   Relation relation() const { return behaviour_.relation; }
 
   /// Internal variables V1, V2 ...: the cumulated plastic strain and the indicator of flow (1 or 0) of isotropic
-  /// hardening, by saturating exponentials the six plastic strains as well (not with the multiplicative split); the six
-  /// of the back stress and the indicator of kinematic hardening; cumulated strain, indicator and back stress of both
-  /// together; one zero of elasticity (U4.51.11). Logarithmic strains add the six components of their stress T, the
-  /// multiplicative split those of (I - b) / 2.
+  /// hardening, by saturating exponentials the six plastic strains as well (not with the multiplicative split), and in
+  /// plane stress and small strains the strain across the plane; the six of the back stress and the indicator of
+  /// kinematic hardening; cumulated strain, indicator and back stress of both together; one zero of elasticity
+  /// (U4.51.11). Logarithmic strains add the six components of their stress T, the multiplicative split those of (I -
+  /// b) / 2, b the whole elastic part (J^(2/3) that of determinant 1).
   int variable_count() const;
 
   /// Throws Error `integration-failure`, `out-of-function`.
@@ -99,10 +100,11 @@ class PointLaw {
   PlasticState state_of(const PointPast& past) const;
   void write(const PlasticState& state, PointResponse& response) const;
   bool keeps_plastic_strain() const;
+  bool keeps_strain_across() const;
   void write_plastic_strain(const PointInput& input, const Vector6d& increment, const PlasticState& state,
                             PointResponse& response) const;
+  Vector6d since_last(const PointInput& input, Vector6d (*strain)(const Eigen::Matrix3d&)) const;
   PlasticResponse integrate(const PointInput& input, const PlasticPoint& now, const Vector6d& increment) const;
-  Vector6d second_stress(const Eigen::Matrix3d& gradient, const Vector6d& reported, const PointPast& past) const;
   PointResponse green(const PointInput& input, const PlasticPoint& now) const;
   PointResponse rubber(const PointInput& input, const PlasticPoint& now) const;
   PointResponse small(const PointInput& input, const PlasticPoint& now) const;
