@@ -22,17 +22,17 @@ void require_small_displacements(const BlockInput& input, int cell, std::string_
 
 /// Contact with friction inside discrete elements, in small displacements (Relation::contact_spring). The stiffness of
 /// the element holds rotations and, beside friction and whether or not it is closed, displacements across the first own
-/// axis, not along it, as Code_Aster 17.3 has it; what touches is the contact spring of its material: between the nodes of a segment, whose gap is the difference of their places less the two
-/// distances, or from the node of a point to an obstacle, whose gap is displacement + clearance - first distance.
-/// Friction grows from where the gap closes within a step. Internal variables, as Code_Aster 17.3 numbers them: the
-/// forces of friction along the second and third own axis, how far they have slid there while closed, three zeros, 1 on
-/// a segment and 0 on a point, 1.
-/// Throws Error `missing-material`, `missing-properties`, `wrong-size`, `unsupported`.
+/// axis, not along it, as Code_Aster 17.3 has it; what touches is the contact spring of its material: between the nodes
+/// of a segment, whose gap is the difference of their places less the two distances, or from the node of a point to an
+/// obstacle, whose gap is displacement + clearance - first distance. Friction grows from where the gap closes within a
+/// step. Internal variables, as Code_Aster 17.3 numbers them: the forces of friction along the second and third own
+/// axis, how far they have slid there while closed, three zeros, 1 on a segment and 0 on a point, 1. Throws Error
+/// `missing-material`, `missing-properties`, `wrong-size`, `unsupported`.
 std::unique_ptr<ElementBlock> make_discrete_contact_block(const BlockInput& input, std::vector<int> cells);
 
 /// Discrete elements whose components have a law each (Relation::bilinear_spring, Relation::hardening_spring), in small
-/// displacements; the others keep the stiffness of the element, which must be diagonal in own axes. Internal variables of
-/// all six axes: of each 0 where no force acts, 1 on the first slope, 2 on the second; or of each the three of
+/// displacements; the others keep the stiffness of the element, which must be diagonal in own axes. Internal variables
+/// of all six axes: of each 0 where no force acts, 1 on the first slope, 2 on the second; or of each the three of
 /// SpringPast. Throws Error `missing-material`, `missing-properties`, `wrong-size`, `invalid-material`,
 /// `unsupported`.
 std::unique_ptr<ElementBlock> make_discrete_law_block(const BlockInput& input, std::vector<int> cells);
