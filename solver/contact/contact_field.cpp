@@ -1,5 +1,6 @@
 #include "solver/contact/contact_field.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -68,68 +69,83 @@ void write_state(const NodeContact& contact, Positions positions, double* row) {
   row[jeu] = contact.gap;
   for (int axis = 0; axis < 3; ++axis) {
     row[pt_x + axis] = positions[pair.slave][axis];
-    row[proj_x + axis] = pair.foot[axis];
+    row[proj_x + axis] = contact.has_foot ? pair.foot[axis] : 0.0;
   }
   row[glix] = contact.slip[0];
   row[gliy] = contact.slip[1];
   row[gli] = contact.slip.norm();
 }
 
-/// To those of other zones at the node.
-void add_forces(const NodeContact& contact, double* row) {
-  const auto add = [row](int column, double force) {
-    row[column] = (row[column] == row[column] ? row[column] : 0.0) + force;
-  };
-  add(rn, contact.normal_force);
+/// To those of other zones at the node. Contact pulls at a node that it holds (MixedZone::bilateral): RN is a size.
+void add_forces(const NodeContact& contact, double duration, double* row) {
+  row[rn] += std::abs(contact.normal_force);
   for (int axis = 0; axis < 3; ++axis) {
-    const double normal = contact.normal_force * contact.pair.normal[axis], shear = contact.shear_force[axis];
-    add(rnx + axis, normal);
-    add(rtax + axis, contact.sticking ? shear : 0.0);
-    add(rtgx + axis, contact.sticking ? 0.0 : shear);
-    add(rx + axis, normal + shear);
+    const double normal = -contact.normal_force * contact.pair.normal[axis], shear = -contact.shear_force[axis];
+    row[rnx + axis] += normal;
+    row[(contact.sticking ? rtax : rtgx) + axis] += shear;
+    row[rx + axis] += normal + shear;
+    row[ix + axis] += duration * (normal + shear);
   }
   row[r] = std::hypot(row[rx], row[ry], row[rz]);
+  row[i] = duration * row[r];
 }
 
-}  // namespace
-
-NodalField contact_field(std::span<const NodeContact> contacts, int node_count, Positions positions) {
+NodalField empty_field(int node_count) {
   NodalField field;
   field.quantity = "INFC_R";
   field.components.assign(contact_names.begin(), contact_names.end());
   field.values.assign(static_cast<std::size_t>(node_count) * column_count, absent);
+  return field;
+}
+
+/// What has been written of a node.
+enum class Written : std::uint8_t { nothing, not_paired, state };
+
+}  // namespace
+
+NodalField untouched_field(std::span<const int> slave_nodes, int node_count) {
+  NodalField field = empty_field(node_count);
+  for (const int node : slave_nodes)
+    std::fill_n(field.values.begin() + static_cast<std::ptrdiff_t>(node) * column_count, std::size_t{column_count},
+                0.0);
+  return field;
+}
+
+NodalField contact_field(std::span<const NodeContact> contacts, int node_count, Positions positions, double duration) {
+  NodalField field = empty_field(node_count);
+  std::vector<Written> written(static_cast<std::size_t>(node_count), Written::nothing);
   for (const NodeContact& contact : contacts) {
     const ContactPair& pair = contact.pair;
     double* row = field.values.data() + static_cast<std::size_t>(pair.slave) * column_count;
+    Written& known = written[static_cast<std::size_t>(pair.slave)];
+    if (row[cont] != row[cont]) std::fill_n(row, std::size_t{column_count}, 0.0);
     if (pair.status != PairingStatus::paired && pair.status != PairingStatus::watched) {
       // A node that another zone holds keeps what that zone says.
-      if (row[cont] == row[cont]) continue;
-      row[cont] = not_paired;
-      for (const Column force : {rn, rnx, rny, rnz, rtax, rtay, rtaz, rtgx, rtgy, rtgz, rx, ry, rz, r})
-        if (std::isnan(row[force])) row[force] = 0.0;
+      if (known == Written::nothing) row[cont] = not_paired;
+      known = std::max(known, Written::not_paired);
       continue;
     }
-    if (!contact.has_point) {
-      add_forces(contact, row);
-      continue;
-    }
-    const bool is_shared = row[jeu] == row[jeu];
-    if (!is_shared || (pair.status == PairingStatus::paired && contact.gap < row[jeu]))
+    if (contact.has_point &&
+        (known != Written::state || (pair.status == PairingStatus::paired && contact.gap < row[jeu]))) {
       write_state(contact, positions, row);
-    add_forces(contact, row);
+      known = Written::state;
+    }
+    add_forces(contact, duration, row);
   }
   return field;
 }
 
 NodalField contact_field(std::span<const ContactPair> pairs, std::span<const double> gaps,
-                         const Eigen::VectorXd& multipliers, int node_count, Positions positions) {
+                         const Eigen::VectorXd& multipliers, int node_count, Positions positions, double duration) {
   std::vector<NodeContact> contacts;
   for (std::size_t k = 0; k < pairs.size(); ++k)
-    contacts.push_back({.pair = pairs[k],
-                        .gap = gaps[k],
-                        .normal_force = multipliers[static_cast<Eigen::Index>(k)],
-                        .closed = multipliers[static_cast<Eigen::Index>(k)] > 0.0});
-  return contact_field(contacts, node_count, positions);
+    contacts.push_back(
+        {.pair = pairs[k],
+         .gap = gaps[k],
+         .normal_force = multipliers[static_cast<Eigen::Index>(k)],
+         .closed = multipliers[static_cast<Eigen::Index>(k)] > 0.0,
+         .has_foot = pairs[k].status == PairingStatus::watched || multipliers[static_cast<Eigen::Index>(k)] > 0.0});
+  return contact_field(contacts, node_count, positions, duration);
 }
 
 }  // namespace comma::solver

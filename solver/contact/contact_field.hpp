@@ -14,27 +14,32 @@ namespace comma::solver {
 struct NodeContact {
   ContactPair pair;
   double gap = absent;
-  double normal_force = 0.0;  ///< positive in compression
+  double normal_force = 0.0;  ///< on the slave, positive in compression
   bool closed = false;        ///< whether contact holds it, be it by a pull (MixedZone::bilateral)
+  bool has_foot = true;       ///< whether its place on the master is shown
   bool sticking = false;
   bool has_point = true;  ///< false: the node has forces alone, its shares of those between nodes
-  Eigen::Vector3d shear_force = Eigen::Vector3d::Zero();     ///< on the slave
-  Eigen::Vector2d slip = Eigen::Vector2d::Constant(absent);  ///< along two tangents; absent without friction
+  Eigen::Vector3d shear_force = Eigen::Vector3d::Zero();  ///< on the slave
+  Eigen::Vector2d slip = Eigen::Vector2d::Zero();         ///< along two tangents
 };
 
 /// Components (U2.04.04): CONT: -1 not paired, or apart where contact is not enforced, 0 open, 1 sticking, 2 in contact
-/// and free to slide, 3 overlapping where contact is not enforced; JEU: gap, positive when open; RN: normal force on
-/// the slave node, positive in compression, and its components RNX RNY RNZ; the tangential forces of sticking RTAX..
-/// and of sliding RTGX.., zero without friction; RX RY RZ R: the whole force; PT_X.. the slave node's place and
-/// PROJ_X.. its foot on the master surface. GLIX GLIY GLI: slip along two tangents and its size, with friction. What is
-/// not computed here stays absent: HN, and the percussions I IX IY IZ (dynamics). A node that is not paired, or
-/// excluded, has CONT and forces, which are zero; one without a point of its own has forces alone. A node without a
-/// slave role carries nothing.
-NodalField contact_field(std::span<const NodeContact> contacts, int node_count, Positions positions);
+/// and free to slide, 3 overlapping where contact is not enforced; JEU: gap, positive when open; RN: size of the normal
+/// force, and RNX RNY RNZ the force on the master, as all forces here; the tangential ones of sticking RTAX.. and of
+/// sliding RTGX..; RX RY RZ R: the whole force; I IX IY IZ: that times the `duration` of the step; PT_X.. the slave
+/// node's place and PROJ_X.. its foot on the master surface, where the pair has one. GLIX GLIY GLI: slip along two
+/// tangents and its size. HN is zero. Of a node that is not paired, or excluded, CONT alone is not zero; of one without
+/// a point of its own forces alone. A node without a slave role carries nothing.
+NodalField contact_field(std::span<const NodeContact> contacts, int node_count, Positions positions,
+                         double duration = 0.0);
 
 /// The same without friction. `gaps` and `multipliers`: one a pair (a length, a force); a gap is not read where the
 /// node is not paired.
 NodalField contact_field(std::span<const ContactPair> pairs, std::span<const double> gaps,
-                         const Eigen::VectorXd& multipliers, int node_count, Positions positions);
+                         const Eigen::VectorXd& multipliers, int node_count, Positions positions,
+                         double duration = 0.0);
+
+/// Zero at slave nodes: that of the first step, whatever the surfaces are like then.
+NodalField untouched_field(std::span<const int> slave_nodes, int node_count);
 
 }  // namespace comma::solver

@@ -39,7 +39,7 @@ class ZonePoints {
         before_(before),
         search_(zone_, definition.smooth_normals, mesh_, positions),
         excluded_(zone_.excluded_slave_nodes.begin(), zone_.excluded_slave_nodes.end()),
-        merges_(zone_.normal_side == NormalSide::master || definition.smooth_normals) {}
+        merges_(zone_.normal_side == NormalSide::master || definition.smooth_normals || has_node_normals()) {}
 
   void append(int cell, std::vector<ContactPoint>& points) {
     const CellType type = mesh_.cell_types[cell];
@@ -139,7 +139,9 @@ class ZonePoints {
       return;
     }
     OwnNodes own = own_nodes(point);
-    if (zone_.normal_side != NormalSide::master) own.outward = search_.slave_normal(point.cell, at.xi);
+    if (zone_.normal_side != NormalSide::master)
+      own.outward = has_node_normals() && point.node >= 0 ? search_.slave_normal_at(point.node)
+                                                          : search_.slave_normal(point.cell, at.xi);
     const auto hit = search_.nearest(here, own, before);
     if (!hit) return;
     point.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
@@ -152,6 +154,10 @@ class ZonePoints {
                       half_thickness(zone_, mesh_, point.facet, point.master_shape) +
                       half_thickness(zone_, mesh_, point.cell, point.shape);
   }
+
+  /// INTEGRATION='AUTO' is the discrete formulation's pairing of nodes (Code_Aster 17.3): the faces at a node have one
+  /// normal there.
+  bool has_node_normals() const { return zone_.mixed.rule == ContactRule::automatic; }
 
   /// A node of both surfaces cannot face the facets that it belongs to.
   OwnNodes own_nodes(const ContactPoint& point) const {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/contact/straight_faces.hpp"
+
 namespace comma::solver {
 namespace {
 
@@ -40,11 +42,17 @@ FacetSearch::FacetSearch(const ContactZone& zone, bool smooth, const Mesh& mesh,
       facets_of_nodes_(facets_of_nodes()),
       facets_(facet_boxes()),
       nodes_(node_boxes()) {
+  if (zone.normal_side != NormalSide::master)
+    slave_node_normals_ = nodal_normals(mesh, zone.slave_cells, positions, slave_choice(zone));
   if (!smooth) return;
+  slave_normals_ = slave_node_normals_;
   if (zone.master_normal == NormalRule::automatic && zone.normal_side != NormalSide::slave)
     master_normals_ = nodal_normals(mesh, zone.master_cells, positions);
-  if (zone.normal_side != NormalSide::master)
-    slave_normals_ = nodal_normals(mesh, zone.slave_cells, positions, slave_choice(zone));
+}
+
+void FacetSearch::straighten_normals() {
+  if (!master_normals_.empty()) straighten(mesh_, zone_.master_cells, master_normals_);
+  if (!slave_normals_.empty()) straighten(mesh_, zone_.slave_cells, slave_normals_);
 }
 
 std::unordered_map<int, std::vector<int>> FacetSearch::facets_of_nodes() const {

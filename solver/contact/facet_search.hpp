@@ -32,6 +32,8 @@ class FacetSearch {
  public:
   /// `smooth`: normals are averaged at the nodes and interpolated between them (U4.44.11, LISSAGE).
   FacetSearch(const ContactZone& zone, bool smooth, const Mesh& mesh, Positions positions);
+  /// Interpolates normals between the corners of QUAD8 faces alone (see straight_faces.hpp).
+  void straighten_normals();
 
   struct Hit {
     int facet = -1;
@@ -61,6 +63,8 @@ class FacetSearch {
 
   /// Outward unit normal of a slave face at a reference point, smoothed as the zone asks.
   Eigen::Vector3d slave_normal(int cell, const Eigen::Vector2d& xi) const;
+  /// The mean of the normals that the slave faces have at a node.
+  Eigen::Vector3d slave_normal_at(int node) const { return slave_node_normals_.at(node); }
 
  private:
   std::unordered_map<int, std::vector<int>> facets_of_nodes() const;
@@ -93,8 +97,9 @@ class FacetSearch {
   std::unordered_map<int, std::vector<int>> facets_of_nodes_;  ///< of the master
   BoxTree facets_;
   BoxTree nodes_;
-  std::unordered_map<int, Eigen::Vector3d> master_normals_;  ///< of the nodes; empty unless smoothed
-  std::unordered_map<int, Eigen::Vector3d> slave_normals_;   ///< likewise
+  std::unordered_map<int, Eigen::Vector3d> master_normals_;      ///< of the nodes; empty unless smoothed
+  std::unordered_map<int, Eigen::Vector3d> slave_normals_;       ///< likewise
+  std::unordered_map<int, Eigen::Vector3d> slave_node_normals_;  ///< where the slave has a say in normals
 };
 
 /// What a zone adds to both surfaces at a slave point and its foot, at a time (DIST_ESCL, DIST_MAIT), beside what the

@@ -18,12 +18,15 @@ class ZonePairing {
       : zone_(definition.zones[static_cast<std::size_t>(index)]),
         index_(index),
         mesh_(mesh),
-        positions_(positions),
+        is_straight_(definition.formulation == ContactFormulation::discrete && zone_.resolved),
+        straight_(is_straight_ ? straight_positions(mesh, zone_, positions) : std::vector<Vector3d>()),
+        positions_(is_straight_ ? Positions(straight_) : positions),
         time_(time),
-        search_(zone_, definition.smooth_normals || zone_.pairing == PairingRule::node, mesh, positions),
+        search_(zone_, definition.smooth_normals || zone_.pairing == PairingRule::node, mesh, positions_),
         excluded_(zone_.excluded_slave_nodes.begin(), zone_.excluded_slave_nodes.end()) {
     if (zone_.normal_side != NormalSide::master)
-      slave_normals_ = nodal_normals(mesh, zone_.slave_cells, positions, slave_choice(zone_));
+      slave_normals_ = nodal_normals(mesh, zone_.slave_cells, positions_, slave_choice(zone_));
+    if (is_straight_) search_.straighten_normals();
     slave_sizes_ = nodal_half_thickness(zone_, mesh);
   }
 
@@ -40,6 +43,7 @@ class ZonePairing {
       result.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
       result.facet = hit->facet;
       result.weights = hit->projection.weights;
+      if (is_straight_) take_corners(mesh_.cell_types[static_cast<std::size_t>(hit->facet)], result.weights);
       result.foot = hit->projection.foot;
       result.kept = hit->kept;
       const auto own = slave_normals_.find(slave);
@@ -62,6 +66,8 @@ class ZonePairing {
   const ContactZone& zone_;
   int index_;
   const Mesh& mesh_;
+  bool is_straight_;                ///< see straight_faces.hpp
+  std::vector<Vector3d> straight_;  ///< where they are not where the mesh has them
   Positions positions_;
   double time_;
   FacetSearch search_;

@@ -6,7 +6,10 @@
 #pragma once
 
 #include <span>
+#include <unordered_map>
 #include <vector>
+
+#include <Eigen/Dense>
 
 #include "solver/contact/definition.hpp"
 #include "solver/loads/load.hpp"
@@ -18,6 +21,18 @@ namespace comma::solver {
 /// The nodes of the slave cells of a zone that may make contact, rising: all but the middle nodes of QUAD8 faces, which
 /// straight_edges() ties; of a zone that is watched, all.
 std::vector<int> contact_nodes(const Mesh& mesh, const ContactZone& zone);
+
+/// Where the nodes of the surfaces are for contact: the middle nodes of the QUAD8 faces of a zone that is resolved lie
+/// on the straight lines between corners, whatever the mesh has there, so that these faces are bilinear
+/// (Code_Aster 17.3).
+std::vector<Eigen::Vector3d> straight_positions(const Mesh& mesh, const ContactZone& zone,
+                                                std::span<const Eigen::Vector3d> positions);
+
+/// The same for what is interpolated from the nodes of a surface: normals.
+void straighten(const Mesh& mesh, std::span<const int> cells, std::unordered_map<int, Eigen::Vector3d>& normals);
+
+/// Shape functions of a QUAD8 face as those of its corners alone; others stay.
+void take_corners(CellType type, std::span<double> weights);
 
 /// u(middle) = (u(end 1) + u(end 2)) / 2 for each edge of the QUAD8 faces of both surfaces of the zones that are
 /// resolved, for the translations that the nodes carry.

@@ -85,6 +85,14 @@ Vector2d left_of_sticking(const ContactLaw& law, const Vector3d& multiplier, con
          (multiplier - live_part(law, multiplier)).tail<2>() / law.friction_augmentation;
 }
 
+/// A share where nothing presses counts as itself, and with the other sign than one that is cut down (Code_Aster 17.3):
+/// at a node that other points hold closed it is what they ask for all the same.
+void add_idle_share(const ContactLaw& law, const Vector3d& multiplier, ContactLawValue& value) {
+  const double unit = law.friction * law.share_pressure;
+  value.residual.tail<2>() = multiplier.tail<2>() / (unit * unit);
+  value.residual_by_multiplier.bottomRightCorner<2, 2>() = Matrix2d::Identity() / (unit * unit);
+}
+
 /// `unit`: the shear at the pressure of shares. Pressures that press nothing have no derivative.
 void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shear& unit, double pressure,
                          const Vector3d& multiplier, const Vector3d& jump, ContactLawValue& value) {
@@ -97,6 +105,8 @@ void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shea
   if (is_held && status == ContactStatus::sticking)
     shear = {.value = law.held_share * unit.value, .by_trial = law.held_share * unit.by_trial};
   add_traction(law, shear, value);
+  if (!law.friction_penalised && law.friction > 0.0 && (status == ContactStatus::open || !(pressure > 0.0)))
+    return add_idle_share(law, multiplier, value);
 
   // Sticking points slip by nothing: said without the shear, of any size, that it takes.
   const bool sticks = status == ContactStatus::sticking && !law.friction_penalised;

@@ -16,26 +16,8 @@ namespace {
 using Eigen::Index;
 using Eigen::Vector3d;
 
-/// The squares of the normals of faces, summed over their areas; zero for lines.
-Vector3d spread_of_faces(const Mesh& mesh, const std::vector<int>& cells) {
-  Vector3d spread = Vector3d::Zero();
-  for (const int cell : cells) {
-    const auto nodes = mesh.cell(cell);
-    if (dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) != 2) continue;
-    const bool is_triangle = corner_count(mesh.cell_types[static_cast<std::size_t>(cell)]) == 3;
-    const Vector3d normal =
-        (place(mesh, nodes[2]) - place(mesh, nodes[0]))
-            .cross(place(mesh, nodes[is_triangle ? 1 : 3]) - place(mesh, nodes[is_triangle ? 0 : 1]));
-    if (normal.norm() > 0.0) spread += normal.cwiseAbs2() / normal.norm();
-  }
-  return spread;
-}
-
-/// The axis, or another one where it is the normal itself.
-Vector3d axis_beside(const Vector3d& normal, const Vector3d& axis) {
-  if (axis.cross(normal).norm() > empty_row_tolerance) return axis;
-  return {axis[2], axis[0], axis[1]};
-}
+/// Components of normals below it are rounding.
+constexpr double least_component = 1e-12;
 
 ContactLaw law_of(const ContactZone& zone) {
   ContactLaw law;
@@ -45,6 +27,17 @@ ContactLaw law_of(const ContactZone& zone) {
   law.friction_penalised = zone.mixed.friction_penalised;
   law.friction_augmentation = law.friction_penalised ? zone.mixed.friction_penalty : zone.mixed.augmentation;
   return law;
+}
+
+/// At nodes SANS_GROUP_NO_FR takes the multiplier away and leaves the augmentation, which is a penalty then (Code_Aster
+/// 17.3, which takes it with INTEGRATION='AUTO' alone); elsewhere there is no friction.
+void leave_out_friction(const MixedZone& zone, ContactLaw& law) {
+  if (zone.rule != ContactRule::automatic) {
+    law.friction = 0.0;
+  } else if (!zone.friction_penalised) {
+    law.friction_penalised = true;
+    law.friction_augmentation = zone.friction_augmentation;
+  }
 }
 
 }  // namespace
@@ -94,7 +87,7 @@ CondensedPoint ContactRows::condensed(const ContactPoint& point) const {
   const auto excluded = excluded_direction(zone.mixed, point, mesh_);
   if (excluded &&
       (excluded->isZero() || (dimension_ == 2 && excluded->head<2>().norm() > empty_row_tolerance * excluded->norm())))
-    result.law.friction = 0.0;
+    leave_out_friction(zone.mixed, result.law);
   if (result.law.friction > 0.0) result.components = dimension_;
   const auto nodes = mesh_.cell(point.cell);
   for (std::size_t i = 0; i < nodes.size(); ++i) {
@@ -112,7 +105,6 @@ void ContactRows::face(Positions positions, double time, double margin) {
   if (margin > 0.0)
     for (const ContactPoint& point : points_) before.facets.push_back(point.facet);
   points_ = contact_points(definition_, model_, positions, time, before);
-  if (zone_directions_.empty()) choose_directions(positions, time);
 }
 
 void ContactRows::add_row(int row, const ContactPoint& point, const Vector3d& direction, RowEntries& entries) const {
@@ -126,46 +118,26 @@ void ContactRows::add_row(int row, const ContactPoint& point, const Vector3d& di
   for (std::size_t i = 0; i < master.size(); ++i) entries.add(row, master[i], -point.master_shape[i] * direction);
 }
 
-/// One direction of space for all tangents of a zone, away from its normals where the surfaces lie at first: shears at
-/// the nodes of a face then speak of the same directions, whatever state a computation begins with.
-void ContactRows::choose_directions(Positions positions, double time) {
-  if (dimension_ == 2) {
-    zone_directions_.assign(definition_.zones.size(), Vector3d::UnitZ());
-    return;
-  }
-  const std::vector<Vector3d> initial = places(mesh_);
-  const bool has_moved = !std::ranges::equal(positions, initial);
-  std::vector<ContactPoint> others;
-  try {
-    if (has_moved) others = contact_points(definition_, model_, initial, time, {});
-  } catch (const Error&) {
-    others.clear();  // surfaces that face each other only now
-  }
-  std::vector<Vector3d> spread(definition_.zones.size(), Vector3d::Zero());
-  for (const ContactPoint& point : others.empty() ? points_ : others)
-    spread[static_cast<std::size_t>(point.zone)] += point.weight * point.normal.cwiseAbs2();
-  for (std::size_t zone = 0; zone < spread.size(); ++zone) {
-    if (spread[zone].isZero(0.0)) spread[zone] = spread_of_faces(mesh_, definition_.zones[zone].slave_cells);
-    const Vector3d& each = spread[zone];
-    Index axis = 0;
-    each.minCoeff(&axis);
-    zone_directions_.push_back(Vector3d::Unit(axis));
-  }
-}
-
+/// As Code_Aster 17.3 has the tangents (multipliers of friction are components along them): from the normal of the
+/// point alone, the first across the z axis, along y where the normal is along z.
 ContactRows::Directions ContactRows::directions(const ContactPoint& point) const {
   const Vector3d& normal = point.normal;
   if (dimension_ == 2) return {normal, Vector3d(-normal[1], normal[0], 0.0), Vector3d::UnitZ()};
-  const Vector3d second = axis_beside(normal, zone_directions_[static_cast<std::size_t>(point.zone)]);
-  const Vector3d along = second - normal.dot(second) * normal;
-  return {normal, along.normalized().cross(normal), along.normalized()};
+  Vector3d along = Vector3d::UnitY();
+  if (std::abs(normal[0]) > least_component)
+    along = Vector3d(-normal[1] / normal[0], 1.0, 0.0);
+  else if (std::abs(normal[1]) > least_component)
+    along = Vector3d(1.0, -normal[0] / normal[1], 0.0);
+  along = (along - normal.dot(along) * normal).normalized();
+  return {normal, along, normal.cross(along)};
 }
 
 /// Along the direction that the user excludes (DIRE_EXCL_FROT), where friction is left along another.
 void ContactRows::let_slide(const ContactPoint& point, const Directions& along, CondensedPoint& condensed) const {
   if (dimension_ == 2 || !(condensed.law.friction > 0.0)) return;
   const auto excluded = excluded_direction(definition_.zones[static_cast<std::size_t>(point.zone)].mixed, point, mesh_);
-  if (excluded) condensed.law.dead = along_tangents(*excluded, along[1], along[2], mesh_.cell_name(point.cell));
+  if (excluded && !excluded->isZero())
+    condensed.law.dead = along_tangents(*excluded, along[1], along[2], mesh_.cell_name(point.cell));
 }
 
 /// The gap between the initial places of the nodes.

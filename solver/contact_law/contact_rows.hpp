@@ -55,7 +55,6 @@ class ContactRows {
  private:
   void number_multipliers();
   void number_patches(int zone);
-  void choose_directions(Positions positions, double time);
   CondensedPoint condensed(const ContactPoint& point) const;
   void let_slide(const ContactPoint& point, const Directions& along, CondensedPoint& condensed) const;
   double initial_gap(const ContactPoint& point) const;
@@ -71,7 +70,6 @@ class ContactRows {
   std::map<Key, int> multiplier_numbers_;
   std::vector<char> smooth_;
   int dimension_ = 3;
-  std::vector<Eigen::Vector3d> zone_directions_;  ///< from which the tangents of each zone are made
   std::vector<ContactPoint> points_;
   std::vector<std::size_t> blocked_;
   RowMatrix full_;

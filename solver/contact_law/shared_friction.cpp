@@ -20,6 +20,9 @@ constexpr double near_share = 1e-2;
 /// The largest pressures count as the same within this share of itself.
 constexpr double same_pressure = 1e-6;
 
+/// Pressures below this share of the largest are rounding.
+constexpr double no_pressure = 1e-12;
+
 /// Whether a solution is looked for near the one before alone, or anew where there is none.
 enum class Turn : std::uint8_t { near, anew };
 enum class Shears : std::uint8_t { none, as_they_are, by_shares };
@@ -341,15 +344,15 @@ class SharedFriction {
     return state;
   }
 
-  /// Shears at nodes that nothing presses on vanish.
+  /// Where the pressure of a node pulls its shear lies along that which it stands for in points that press.
   template <typename Factor>
   void scale_shears(CondensedState& state, const Factor& factor) const {
     for (int node = 0; node < given_.node_count; ++node) {
       if (!shared_[static_cast<std::size_t>(node)]) continue;
       const Index first = Index{node} * given_.components;
-      const double pressure = state.multipliers[first];
+      const double pressure = state.multipliers[first], of_surface = pressures_.at(node);
       state.multipliers.segment(first + 1, given_.components - 1) *=
-          pressure > 0.0 ? factor(pressure, pressures_.at(node)) : 0.0;
+          std::abs(pressure) > no_pressure * of_surface ? factor(pressure, of_surface) : 0.0;
     }
   }
 

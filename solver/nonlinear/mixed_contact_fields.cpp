@@ -107,8 +107,24 @@ void add_idle_multipliers(const SolvedContact& contact, const std::function<doub
   }
 }
 
+/// Where the place that the point faces has gone since surfaces were paired.
+Vector3d place_on_facet(const Mesh& mesh, const ContactPoint& point, Positions positions) {
+  Vector3d place = Vector3d::Zero();
+  const auto nodes = mesh.cell(point.facet);
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    place += point.master_shape[a] * positions[static_cast<std::size_t>(nodes[a])];
+  return place;
+}
+
+/// Nodes of SANS_GROUP_NO_FR count as sticking whatever they do.
+bool is_left_to_creep(const SolvedContact& contact, const ContactPoint& point) {
+  const MixedZone& zone = contact.definition.zones[static_cast<std::size_t>(point.zone)].mixed;
+  return zone.rule == ContactRule::automatic && !zone.frictionless_direction &&
+         std::ranges::find(zone.frictionless_nodes, point.node) != zone.frictionless_nodes.end();
+}
+
 /// Of a point on a node.
-NodeContact node_contact(const SolvedContact& contact, std::size_t p) {
+NodeContact node_contact(const SolvedContact& contact, Positions positions, std::size_t p) {
   const ContactPoint& point = contact.points()[p];
   const CondensedPoint& condensed = contact.problem.points[p];
   NodeContact node;
@@ -122,9 +138,13 @@ NodeContact node_contact(const SolvedContact& contact, std::size_t p) {
     node.gap = contact.jumps[condensed.first_row];
     node.normal_force = contact.forces[condensed.first_row];
     node.closed = point.status == PairingStatus::paired && contact.is_closed(p);
-    node.sticking = contact.state.statuses[p] == ContactStatus::sticking;
+    node.sticking =
+        contact.state.statuses[p] == ContactStatus::sticking || (node.closed && is_left_to_creep(contact, point));
   }
-  if (contact.problem.components > 1 || contact.definition.has_friction) node.slip.setZero();
+  if (contact.definition.formulation == ContactFormulation::discrete)
+    node.has_foot = node.closed;
+  else if (point.facet >= 0)
+    node.pair.foot = place_on_facet(contact.mesh, point, positions);
   node.shear_force = shear_force(contact, p);
   for (int c = 1; c < condensed.rows; ++c)
     node.slip[c - 1] = contact.is_closed(p) ? contact.jumps[condensed.first_row + c] : 0.0;
@@ -201,20 +221,21 @@ void add_multipliers(const SolvedContact& contact, NodalField& displacements) {
     const Vector3d value = multiplier(contact, number);
     const double limit = contact.definition.zones[static_cast<std::size_t>(key.first)].mixed.friction * value[0];
     place(key.second)[0] -= value[0];
-    for (int c = 1; c < contact.problem.components && limit > 0.0; ++c) place(key.second)[c] += value[c] / limit;
+    for (int c = 1; c < contact.problem.components && limit != 0.0; ++c) place(key.second)[c] += value[c] / limit;
   }
   show_pressures_on_axis(contact, place);
   add_idle_multipliers(contact, place);
   displacements.values = std::move(values);
 }
 
-NodalField contact_state(const SolvedContact& contact, Positions positions, Positions paired_at, double instant) {
+std::optional<NodalField> contact_state(const SolvedContact& contact, Positions positions, Positions paired_at,
+                                        double instant, double duration) {
   std::vector<NodeContact> contacts;
   std::map<Key, std::size_t> by_node;
   for (std::size_t p = 0; p < contact.points().size(); ++p) {
     const ContactPoint& point = contact.points()[p];
     if (point.node < 0 || point.area > 0.0 || point.status == PairingStatus::watched) continue;
-    const NodeContact node = node_contact(contact, p);
+    const NodeContact node = node_contact(contact, positions, p);
     const auto [known, is_first] = by_node.emplace(Key(point.zone, point.node), contacts.size());
     if (is_first) {
       contacts.push_back(node);
@@ -226,8 +247,14 @@ NodalField contact_state(const SolvedContact& contact, Positions positions, Posi
     }
   }
   add_forces_between_nodes(contact, by_node, contacts);
+  for (NodeContact& node : contacts)
+    if (node.has_point && !node.closed) {
+      node.normal_force = 0.0;
+      node.shear_force.setZero();
+    }
   add_nodes_without_contact(contact, paired_at, instant, contacts);
-  return contact_field(contacts, contact.mesh.node_count(), positions);
+  if (contacts.empty()) return std::nullopt;
+  return contact_field(contacts, contact.mesh.node_count(), positions, duration);
 }
 
 std::optional<ElementField> patch_state(const SolvedContact& contact) {

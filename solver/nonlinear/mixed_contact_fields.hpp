@@ -14,9 +14,10 @@ namespace comma::solver {
 /// LAGS_F2 too: the shear that resists slip, as a share of the limit of friction.
 void add_multipliers(const SolvedContact& contact, NodalField& displacements);
 
-/// CONT_NOEU (see contact_field.hpp). `positions`: where the nodes are; `paired_at`: where they were when surfaces were
-/// last paired, for zones that are watched.
-NodalField contact_state(const SolvedContact& contact, Positions positions, Positions paired_at, double instant);
+/// CONT_NOEU (see contact_field.hpp); nothing where no point lies at a node. `positions`: where the nodes are;
+/// `paired_at`: where they were when surfaces were last paired, for zones that are watched; `duration`: of the step.
+std::optional<NodalField> contact_state(const SolvedContact& contact, Positions positions, Positions paired_at,
+                                        double instant, double duration);
 
 /// CONT_ELEM (see patch_field.hpp); nothing without zones of local average contact.
 std::optional<ElementField> patch_state(const SolvedContact& contact);

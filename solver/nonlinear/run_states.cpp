@@ -47,7 +47,15 @@ void StaticRun::start(double instant) {
   add_internal_variables(step);
   step.parameters["ITER_GLOB"] = 0.0;
   if (path_) step.parameters["ETA_PILOTAGE"] = path_->intensity();
-  if (problem_.contact) step.fields.emplace("CONT_NOEU", initial_contact_state(instant));
+  if (problem_.contact) {
+    pair_initially(instant);
+    std::vector<int> slaves;
+    for (const ContactZone& zone : problem_.contact->zones) {
+      const auto nodes = mesh_.nodes_of_cells(zone.slave_cells);
+      slaves.insert(slaves.end(), nodes.begin(), nodes.end());
+    }
+    step.fields.emplace("CONT_NOEU", untouched_field(slaves, mesh_.node_count()));
+  }
   add_patch_state(step);
   if (problem_.initial) keep_given(*problem_.initial, step);
   append(std::move(step));
@@ -59,7 +67,8 @@ void StaticRun::keep_given(const InitialState& given, ResultStep& step) const {
   if (const ElementField* variables = given.variables ? of_memory(&*given.variables) : nullptr)
     take_common_values(step.fields.at("VARI_ELGA"), *variables);
   if (given.contact_fields.empty()) return;
-  for (const auto& [name, field] : given.contact_fields) step.fields.insert_or_assign(name, field);
+  for (const auto& [name, field] : given.contact_fields)
+    if (name != "CONT_NOEU") step.fields.insert_or_assign(name, field);
   step.contact = given.contact;
   if (given.displacement) take_common_values(step.fields.at("DEPL"), *given.displacement);  // multipliers too
 }
@@ -146,11 +155,10 @@ std::span<const AppliedLoad> StaticRun::loads_so_far() const {
   return result_.steps.empty() ? std::span<const AppliedLoad>() : problem_.loads;
 }
 
-NodalField StaticRun::initial_contact_state(double instant) {
+void StaticRun::pair_initially(double instant) {
   pair(instant, now_.state.u, nullptr);
   now_.conditions = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, instant);
   resize_multipliers(now_.conditions);
-  return contact_state(instant);
 }
 
 void StaticRun::add_internal_variables(ResultStep& step) const {
@@ -180,7 +188,8 @@ ResultStep StaticRun::fields_now(double instant) const {
 
 void StaticRun::archive(double instant, int iterations) {
   ResultStep step = fields_now(instant);
-  if (problem_.contact) step.fields.emplace("CONT_NOEU", contact_state(instant));
+  if (problem_.contact)
+    if (auto state = contact_state(instant)) step.fields.emplace("CONT_NOEU", *std::move(state));
   add_patch_state(step);
   if (mixed_) step.contact = mixed_->memory();
   step.parameters["ITER_GLOB"] = iterations;
@@ -194,9 +203,11 @@ void StaticRun::append(ResultStep step) {
   if (after_step_) after_step_(result_);
 }
 
-NodalField StaticRun::contact_state(double instant) const {
+std::optional<NodalField> StaticRun::contact_state(double instant) const {
   const std::vector<Vector3d> paired_at = positions_at(now_.reference, mesh_, dofs_);
-  if (mixed_) return comma::solver::contact_state(mixed_->solved(now_.state.u), positions(), paired_at, instant);
+  const double duration = instant - result_.steps.back().instant;
+  if (mixed_)
+    return comma::solver::contact_state(mixed_->solved(now_.state.u), positions(), paired_at, instant, duration);
   const Eigen::VectorXd slack = now_.conditions.full.bounds - now_.conditions.full.rows * now_.state.u;
   std::vector<double> gaps(now_.conditions.pairs.size(), absent);
   for (std::size_t row = 0; row < now_.conditions.row_slots.size(); ++row) {
@@ -209,7 +220,7 @@ NodalField StaticRun::contact_state(double instant) const {
     pairs[k] = pair;
     gaps[k] = gap_at(pair, mesh_, paired_at);
   }
-  return contact_field(pairs, gaps, now_.state.multipliers, mesh_.node_count(), now);
+  return contact_field(pairs, gaps, now_.state.multipliers, mesh_.node_count(), now, duration);
 }
 
 }  // namespace comma::solver

@@ -129,12 +129,12 @@ class StaticRun {
   const ElementField* field_of_last_step(std::string_view name) const;
   std::span<const AppliedLoad> loads_so_far() const;
   /// How the surfaces stand before anything presses.
-  NodalField initial_contact_state(double instant);
+  void pair_initially(double instant);
   std::vector<Eigen::Vector3d> positions() const { return positions_at(now_.state.u, mesh_, dofs_); }
   /// The multipliers of the mixed formulation are unknowns beside them.
   NodalField displacements() const;
   void add_internal_variables(ResultStep& step) const;
-  NodalField contact_state(double instant) const;
+  std::optional<NodalField> contact_state(double instant) const;
   void add_patch_state(ResultStep& step) const;
   /// Displacements, stresses and internal variables.
   ResultStep fields_now(double instant) const;
