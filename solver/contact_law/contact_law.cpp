@@ -89,8 +89,10 @@ Vector2d left_of_sticking(const ContactLaw& law, const Vector3d& multiplier, con
 /// at a node that other points hold closed it is what they ask for all the same.
 void add_idle_share(const ContactLaw& law, const Vector3d& multiplier, ContactLawValue& value) {
   const double unit = law.friction * law.share_pressure;
-  value.residual.tail<2>() = multiplier.tail<2>() / (unit * unit);
-  value.residual_by_multiplier.bottomRightCorner<2, 2>() = Matrix2d::Identity() / (unit * unit);
+  const Matrix2d live = live_directions(law);
+  const Matrix2d by_multiplier = live / (unit * unit) - (Matrix2d::Identity() - live) / law.friction_augmentation;
+  value.residual.tail<2>() = by_multiplier * multiplier.tail<2>();
+  value.residual_by_multiplier.bottomRightCorner<2, 2>() = by_multiplier;
 }
 
 /// `unit`: the shear at the pressure of shares. Pressures that press nothing have no derivative.

@@ -358,7 +358,7 @@ TEST_CASE("Discrete contact by a penalty: the force on a slave node is E_N times
   for (const int node : stack.upper.nodes[0]) {
     const double gap = stack.scene.contact(node, "JEU");
     CHECK(stack.scene.contact(node, "RN") == Approx(-1e5 * gap).epsilon(1e-9));
-    total += stack.scene.contact(node, "RNY");
+    total -= stack.scene.contact(node, "RNY");
   }
   double carried = 0.0;
   for (const int node : stack.lower.nodes[0]) carried += stack.scene.internal_force(node, Component::dy);

@@ -166,7 +166,7 @@ TEST_CASE("Contact on meshes that do not match: the resultant is exact, the pres
   for (const int node : lower.nodes[0]) support += scene.internal_force(node, Component::dy);
   // Action and reaction to rounding; node-to-facet contact is no patch test, so the pressure itself is some percent
   // off.
-  CHECK(sum(scene, upper.nodes[0], "RNY") == Approx(support).epsilon(1e-11));
+  CHECK(-sum(scene, upper.nodes[0], "RNY") == Approx(support).epsilon(1e-11));
   CHECK(support == Approx(6 * pressure).epsilon(0.05));
 }
 
@@ -183,7 +183,7 @@ TEST_CASE("Contact on meshes that match passes the patch test") {
   const double stress = 1000 / (1 - 0.0625) * 0.01;
   for (std::size_t i = 0; i < 5; ++i) {
     const double share = i == 0 || i == 4 ? 0.75 : 1.5;
-    CHECK(scene.contact(upper.nodes[0][i], "RNY") == Approx(stress * share).epsilon(1e-10));
+    CHECK(-scene.contact(upper.nodes[0][i], "RNY") == Approx(stress * share).epsilon(1e-10));
     CHECK(scene.displacement(upper.nodes[0][i], Component::dy) == Approx(-0.02).epsilon(1e-10));
   }
 }
