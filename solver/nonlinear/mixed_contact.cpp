@@ -132,24 +132,19 @@ bool MixedContact::is_faced_again() const {
   return definition_.geometry_update == GeometryUpdate::automatic && definition_.max_geometry_updates > 1;
 }
 
-/// What never opens again does not close on a surface as it lay before the step (the mixed formulation alone; ssnv104e
-/// tells): points of bilateral zones wait for the next geometry. A body that touches nothing yet must not pass through
-/// the other: its points close, and are free to open again in that geometry.
+/// What never opens again does not close on a surface as it lay before the step: points of bilateral zones wait for the
+/// next geometry (the mixed formulation alone; ssnv104e tells). A body that touches nothing yet must not pass through
+/// the other.
 void MixedContact::hold_back_points() {
   held_back_.clear();
-  for (const std::size_t p : closing_freely_) state_.statuses[p] = ContactStatus::open;
-  closing_freely_.clear();
-  const bool is_first = step_begins_ && is_faced_again() && definition_.formulation == ContactFormulation::mixed;
-  const bool touches = closed_count() > 0;
+  const bool waits =
+      step_begins_ && is_faced_again() && definition_.formulation == ContactFormulation::mixed && closed_count() > 0;
   step_begins_ = false;
-  for (std::size_t p = 0; p < points().size() && is_first; ++p) {
+  for (std::size_t p = 0; p < points().size() && waits; ++p) {
     CondensedPoint& point = problem_.points[p];
     if (!point.bilateral || point.rows == 0 || state_.statuses[p] != ContactStatus::open) continue;
-    if (touches)
-      point.rows = 0;
-    else
-      point.bilateral = false;
-    (touches ? held_back_ : closing_freely_).push_back(p);
+    point.rows = 0;
+    held_back_.push_back(p);
   }
 }
 

@@ -152,11 +152,10 @@ class MixedContact {
   Eigen::VectorXd reference_;
   Eigen::VectorXd faced_at_;  ///< u where `linearise` faced the points; at first the beginning of the step
   double geometry_change_ = 0.0;
-  Eigen::VectorXd start_;                    ///< multipliers when the step began
-  Eigen::VectorXd rates_;                    ///< of multipliers, in the last step that was accepted
-  bool step_begins_ = false;                 ///< and no point has been faced in it
-  std::vector<std::size_t> held_back_;       ///< points that may not close yet
-  std::vector<std::size_t> closing_freely_;  ///< bilateral points that are not held yet
+  Eigen::VectorXd start_;               ///< multipliers when the step began
+  Eigen::VectorXd rates_;               ///< of multipliers, in the last step that was accepted
+  bool step_begins_ = false;            ///< and no point has been faced in it
+  std::vector<std::size_t> held_back_;  ///< points that may not close yet
   std::unique_ptr<SchurComplement> schur_;
 };
 
