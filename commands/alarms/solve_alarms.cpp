@@ -272,7 +272,7 @@ void warn_of_unused_stresses(const interpreter::Call& call, const solver::Static
     context.diagnostics.alarm(
         "unused-stresses",
         fmt::format(
-            "{}: the mean of the stresses that ETAT_INIT/SIGM gives cell {}, with SIP, is not its pressure (PRES "
+            "{}: the mean of the stresses that ETAT_INIT/SIGM gives cell {} is not its pressure (PRES "
             "of DEPL, else 0), which follows from the change of volume with INCO_UP: of SIGM the deviator alone "
             "has an effect there",
             call.command, problem.model->mesh->cell_name(cell)),

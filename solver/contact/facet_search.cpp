@@ -234,6 +234,9 @@ bool FacetSearch::is_outside(const Projection& projection, double margin) const 
 
 Vector3d FacetSearch::master_normal(const Hit& hit) const {
   if (!master_normals_.empty()) return interpolated_normal(mesh_, hit.facet, hit.projection.xi, master_normals_);
+  // A given normal needs no tangents, which a point has not.
+  if (zone_.master_normal == NormalRule::fixed)
+    return surface_normal(master_choice(zone_), mesh_, hit.facet, Tangents::Zero());
   std::array<Vector3d, max_facet_nodes> points;
   Box box;
   const CellType type = mesh_.cell_types[hit.facet];

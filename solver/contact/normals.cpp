@@ -120,6 +120,7 @@ Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet,
 
 Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet, const Eigen::Vector2d& xi,
                         Positions positions) {
+  if (choice.rule == NormalRule::fixed) return surface_normal(choice, mesh, facet, Tangents::Zero());
   const FacetPoints points = gather(mesh, facet, positions);
   return surface_normal(choice, mesh, facet, facet_tangents(mesh.cell_types[facet], points.span(), xi));
 }

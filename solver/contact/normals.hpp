@@ -31,6 +31,7 @@ bool has_normal(const NormalChoice& choice, const Mesh& mesh, int facet);
 /// Throws Error `unsupported` for a line in space without a given normal, `degenerate-facet` for a null one.
 Eigen::Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet, const Eigen::Vector2d& xi,
                                Positions positions);
+/// From tangents, which a given normal does not need.
 Eigen::Vector3d surface_normal(const NormalChoice& choice, const Mesh& mesh, int facet, const Tangents& tangents);
 
 /// Outward unit normal of each node of the cells: the mean of the normals that the cells have there (U4.44.11,

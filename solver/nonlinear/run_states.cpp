@@ -1,5 +1,6 @@
 // The part of StaticRun that reads the state it begins with, and writes the states it reaches.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -74,21 +75,33 @@ void StaticRun::keep_given(const InitialState& given, ResultStep& step) const {
 }
 
 // SIP is no stress of the law. With the swelling as an unknown the pressure follows from the law; with the pressure
-// alone it stays what it is, and SIP tells what the mean of the stresses has less than that.
+// alone it stays what it is, and is the mean of the stresses.
 void StaticRun::note_unused_stresses(const ElementField& given) const {
   const ElementField taken = assembler_.stresses(now_.state.u);
-  const auto without_pressure = [&](int field_count) {
-    ElementField field = taken;
-    const auto column = static_cast<std::size_t>(field.component("SIP")), width = field.components.size();
-    for (int cell = 0; cell < mesh_.cell_count() && column < width; ++cell)
-      if (mixed_field_count(problem_.model->formulations[static_cast<std::size_t>(cell)]) >= field_count)
-        for (int point = field.starts[cell]; point < field.starts[cell + 1]; ++point)
-          field.values[static_cast<std::size_t>(point) * width + column] = absent;
+  enum class Left : std::uint8_t { stresses, deviators };
+  const auto without_pressure = [&](ElementField field, Left left) {
+    const std::array columns = {field.component("SIXX"), field.component("SIYY"), field.component("SIZZ")};
+    const int pressure = field.component("SIP");
+    const auto width = static_cast<std::ptrdiff_t>(field.components.size());
+    for (int cell = 0; cell < mesh_.cell_count() && pressure >= 0; ++cell) {
+      const int unknown_fields = mixed_field_count(problem_.model->formulations[static_cast<std::size_t>(cell)]);
+      if (unknown_fields == 0) continue;
+      for (int point = field.starts[cell]; point < field.starts[cell + 1]; ++point) {
+        double* row = field.values.data() + point * width;
+        row[pressure] = absent;
+        if (unknown_fields > 1 || left == Left::stresses || std::ranges::find(columns, -1) != columns.end()) continue;
+        const double mean = (row[columns[0]] + row[columns[1]] + row[columns[2]]) / 3.0;
+        for (const int column : columns) row[column] -= mean;
+      }
+    }
     return field;
   };
-  if (const auto cell = cell_of_other_values(without_pressure(1), given))
+  const auto other_cell = [&](Left left) {
+    return cell_of_other_values(without_pressure(taken, left), without_pressure(given, left));
+  };
+  if (const auto cell = other_cell(Left::deviators))
     options_.note_unused_stresses(*cell, UnusedStresses::all);
-  else if (const auto other = cell_of_other_values(without_pressure(2), given))
+  else if (const auto other = other_cell(Left::stresses))
     options_.note_unused_stresses(*other, UnusedStresses::mean);
 }
 
