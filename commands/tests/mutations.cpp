@@ -58,7 +58,12 @@ std::string sample_value(const KeywordPage& page) {
   if (!page.supported || page.types.empty() || page.min_count > 1) return "";
   if (!page.words.empty()) return page.words.front().supported ? page.words.front().value.repr() : "";
   const Kind kind = page.types.front().kind;
-  if (kind == Kind::real) return page.bounds.above || page.bounds.at_least ? "1.0" : "0.5";
+  if (kind == Kind::real) {
+    const auto lowest = page.bounds.above ? page.bounds.above : page.bounds.at_least;
+    const auto highest = page.bounds.below ? page.bounds.below : page.bounds.at_most;
+    if (lowest && highest) return fmt::format("{:.6f}", 0.5 * (*lowest + *highest));
+    return lowest ? "1.0" : "0.5";
+  }
   if (kind == Kind::integer) return "1";
   return holds_text(kind) ? "'SAMPLE'" : "";
 }
