@@ -90,14 +90,15 @@ bool FacetSearch::too_far(const Vector3d& point) const {
   return nearest > zone_.pairing_distance;
 }
 
-FacetSearch::Hit FacetSearch::nearest_facet(const Vector3d& point, const OwnNodes& own, Counted counted) const {
+FacetSearch::Hit FacetSearch::nearest_facet(const Vector3d& point, const OwnNodes& own, Counted counted,
+                                            double within) const {
   Hit best;
   best.projection.distance = infinitely_far;
   facets_.search(point, [&](int item) {
     consider(point, own, zone_.master_cells[item], counted, best);
     // Along a direction a facet that is far may be met where a near one is passed by.
     if (zone_.pairing_direction && (best.facet < 0 || best.projection.outside > 0.0)) return infinitely_far;
-    return best.projection.distance * (1.0 + search_margin) + search_margin;
+    return std::min(best.projection.distance, within) * (1.0 + search_margin) + search_margin;
   });
   return best;
 }
@@ -112,18 +113,18 @@ FacetSearch::Hit FacetSearch::around_nearest_node(const Vector3d& point, const O
 }
 
 FacetSearch::Hit FacetSearch::nearest_counted(const Vector3d& point, const OwnNodes& own) const {
-  const Hit nearest = nearest_facet(point, own, Counted::all);
-  if (zone_.pairing_direction || nearest.facet < 0) return nearest;
+  if (zone_.pairing_direction) return nearest_facet(point, own, Counted::all, infinitely_far);
   const Hit around = around_nearest_node(point, own);
-  const bool is_sound = around.facet >= 0 && !is_outside(around.projection, 0.0) &&
-                        nearest.projection.distance >= much_nearer * around.projection.distance;
-  return is_sound ? around : nearest;
+  const bool is_sound = around.facet >= 0 && !is_outside(around.projection, 0.0);
+  const double within = is_sound ? much_nearer * around.projection.distance : infinitely_far;
+  const Hit other = nearest_facet(point, own, Counted::all, within);
+  return is_sound && !(other.projection.distance < within) ? around : other;
 }
 
 FacetSearch::Hit FacetSearch::nearest_faced(const Vector3d& point, const OwnNodes& own) const {
   const Hit nearest = nearest_counted(point, own);
   if (!own.outward || nearest.facet < 0 || opposes(nearest, *own.outward)) return nearest;
-  const Hit opposing = nearest_facet(point, own, Counted::opposing);
+  const Hit opposing = nearest_facet(point, own, Counted::opposing, infinitely_far);
   const bool is_farther = opposing.projection.distance > nearest.projection.distance * (1.0 + equally_near);
   const bool lies_behind =
       opposing.facet >= 0 && is_farther && is_in_front(point, nearest) && !is_in_front(point, opposing);

@@ -18,14 +18,13 @@ class ZonePairing {
       : zone_(definition.zones[static_cast<std::size_t>(index)]),
         index_(index),
         mesh_(mesh),
-        is_straight_(definition.formulation == ContactFormulation::discrete && zone_.resolved),
+        is_straight_(definition.formulation == ContactFormulation::discrete && zone_.resolved &&
+                     has_straight_faces(mesh, zone_)),
         straight_(is_straight_ ? straight_positions(mesh, zone_, positions) : std::vector<Vector3d>()),
         positions_(is_straight_ ? Positions(straight_) : positions),
         time_(time),
         search_(zone_, definition.smooth_normals || zone_.pairing == PairingRule::node, mesh, positions_),
         excluded_(zone_.excluded_slave_nodes.begin(), zone_.excluded_slave_nodes.end()) {
-    if (zone_.normal_side != NormalSide::master)
-      slave_normals_ = nodal_normals(mesh, zone_.slave_cells, positions_, slave_choice(zone_));
     if (is_straight_) search_.straighten_normals();
     slave_sizes_ = nodal_half_thickness(zone_, mesh);
   }
@@ -46,8 +45,7 @@ class ZonePairing {
       if (is_straight_) take_corners(mesh_.cell_types[static_cast<std::size_t>(hit->facet)], result.weights);
       result.foot = hit->projection.foot;
       result.kept = hit->kept;
-      const auto own = slave_normals_.find(slave);
-      result.normal = search_.normal(*hit, own == slave_normals_.end() ? Vector3d::Zero() : own->second);
+      result.normal = search_.normal(*hit, outward_at(slave).value_or(Vector3d::Zero()));
       result.thickness =
           thickness_at(zone_, at, result.foot, time_) + half_thickness(zone_, mesh_, hit->facet, result.weights);
       if (const auto size = slave_sizes_.find(slave); size != slave_sizes_.end()) result.thickness += size->second;
@@ -59,8 +57,13 @@ class ZonePairing {
   std::optional<FacetSearch::Hit> place_on_master(int slave, FacedFacet before) const {
     OwnNodes own{std::span(&slave, 1)};
     if (zone_.pairing == PairingRule::node) return search_.nearest_node(positions_[slave], own.nodes);
-    if (const auto normal = slave_normals_.find(slave); normal != slave_normals_.end()) own.outward = normal->second;
+    own.outward = outward_at(slave);
     return search_.nearest(positions_[slave], own, before);
+  }
+
+  std::optional<Vector3d> outward_at(int slave) const {
+    if (zone_.normal_side == NormalSide::master) return std::nullopt;
+    return search_.slave_normal_at(slave);
   }
 
   const ContactZone& zone_;
@@ -73,7 +76,6 @@ class ZonePairing {
   FacetSearch search_;
   std::unordered_set<int> excluded_;
   std::unordered_map<int, double> slave_sizes_;  ///< of the nodes: what their elements add
-  std::unordered_map<int, Vector3d> slave_normals_;
 };
 
 }  // namespace

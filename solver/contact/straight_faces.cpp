@@ -1,5 +1,6 @@
 #include "solver/contact/straight_faces.hpp"
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <set>
@@ -50,6 +51,11 @@ std::vector<int> contact_nodes(const Mesh& mesh, const ContactZone& zone) {
     nodes.insert(taken.begin(), taken.end());
   }
   return {nodes.begin(), nodes.end()};
+}
+
+bool has_straight_faces(const Mesh& mesh, const ContactZone& zone) {
+  const auto is_straight = [&](int cell) { return mesh.cell_types[static_cast<std::size_t>(cell)] == CellType::quad8; };
+  return std::ranges::any_of(zone.master_cells, is_straight) || std::ranges::any_of(zone.slave_cells, is_straight);
 }
 
 std::vector<Vector3d> straight_positions(const Mesh& mesh, const ContactZone& zone,

@@ -22,6 +22,9 @@ namespace comma::solver {
 /// straight_edges() ties; of a zone that is watched, all.
 std::vector<int> contact_nodes(const Mesh& mesh, const ContactZone& zone);
 
+/// Whether a zone has QUAD8 faces.
+bool has_straight_faces(const Mesh& mesh, const ContactZone& zone);
+
 /// Where the nodes of the surfaces are for contact: the middle nodes of the QUAD8 faces of a zone that is resolved lie
 /// on the straight lines between corners, whatever the mesh has there, so that these faces are bilinear
 /// (Code_Aster 17.3).

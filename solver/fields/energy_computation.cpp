@@ -72,8 +72,6 @@ bool FieldComputation::has_bars_with_memory() const {
   return false;
 }
 
-// Of continua from their stresses; of springs, bars and beams from their displacements, and of bars with a memory from
-// what they remember.
 namespace {
 
 // Of plates the whole is what its parts make together: what holds the rotation about the normal is no elastic energy.
@@ -91,6 +89,8 @@ ElementField without_drilling(const Model& model, ElementField energies) {
 
 }  // namespace
 
+// Of continua from their stresses; of springs, bars and beams from their displacements, and of bars with a memory from
+// what they remember.
 Field FieldComputation::elastic_energy_of_cells(std::size_t step) {
   const Eigen::VectorXd u = to_dofs(displacement(step), dofs_);
   if (has_bars_with_memory()) assembler_.resume(u, &whole_field("SIEF_ELGA", step), &whole_field("VARI_ELGA", step));

@@ -128,7 +128,7 @@ class StaticRun {
   /// Null where the step has it not.
   const ElementField* field_of_last_step(std::string_view name) const;
   std::span<const AppliedLoad> loads_so_far() const;
-  /// How the surfaces stand before anything presses.
+  /// Pairs the surfaces as they stand before anything presses.
   void pair_initially(double instant);
   std::vector<Eigen::Vector3d> positions() const { return positions_at(now_.state.u, mesh_, dofs_); }
   /// The multipliers of the mixed formulation are unknowns beside them.
