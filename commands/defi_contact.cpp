@@ -308,6 +308,7 @@ solver::MixedZone discrete_zone(const Keywords& keywords) {
   zone.friction = keywords.real("COULOMB");
   zone.friction_penalised = true;
   zone.friction_penalty = keywords.real("E_T");
+  zone.secant_relief = keywords.real("COEF_MATR_FROT");
   return zone;
 }
 

@@ -52,6 +52,7 @@ struct MixedZone {
   bool friction_penalised = false;  ///< while it sticks the shear is `friction_penalty` times the slip (E_T); in the
                                     ///< mixed formulation the same of shares of the limit of friction (COEF_PENA_FROT)
   double friction_penalty = 0.0;    ///< a force over a length, or one over a length
+  double secant_relief = 0.0;       ///< COEF_MATR_FROT: see secant_shear()
   std::optional<double> largest_slip;  ///< GLIS_MAXI, a length: `friction_penalty` is raised until no point that sticks
                                        ///< slips by more in the step
   /// COEF_FROT: of shares of the limit of friction by the slip, a unit of length.

@@ -96,6 +96,7 @@ class CondensedSearch {
     solution_.iterations = 1;
     newton_.correct_once();
     conclude(!newton_.is_lost());
+    if (newton_.solved_forces().size() > 0) solution_.forces = newton_.solved_forces();
     return solution_;
   }
 

@@ -221,6 +221,9 @@ bool CondensedEquations::correct_at_nodes() {
     return true;
   }
   for (std::size_t k = 0; k < unknown_rows_.size(); ++k) jumps_[unknown_rows_[k]] -= (*jumps)[static_cast<Index>(k)];
+  solved_forces_ = forces_;
+  for (std::size_t k = 0; k < unknown_rows_.size(); ++k)
+    solved_forces_[unknown_rows_[k]] -= step.force_changes()[static_cast<Index>(k)];
   for (const NodalStep::Change& change : step.multiplier_changes())
     for (int c = 0; c < change.rows; ++c) state_.multipliers[multiplier_index(change.node, c)] -= change.value[c];
   return true;

@@ -43,6 +43,8 @@ class CondensedEquations {
 
   /// One step of Newton's method for jumps and multipliers.
   void correct();
+  /// Forces that the last step has been solved with, where points lie on nodes; else empty.
+  const Eigen::VectorXd& solved_forces() const { return solved_forces_; }
   /// Forces, and what is left of the equations, at the present multipliers and jumps.
   void evaluate();
 
@@ -112,6 +114,7 @@ class CondensedEquations {
   CondensedState& state_;
   Eigen::VectorXd jumps_;
   Eigen::VectorXd forces_;
+  Eigen::VectorXd solved_forces_;
   const bool is_nodal_;
   const int direct_rows_;
   NearInverse own_near_inverse_;

@@ -51,6 +51,7 @@ class CondensedNewton {
   void take_penalties(double share) { equations_.take_penalties(share); }
 
   const Eigen::VectorXd& forces() const { return equations_.forces(); }
+  const Eigen::VectorXd& solved_forces() const { return equations_.solved_forces(); }
   /// Whether the present state is one that bodies come to: no farther than some times the nearest one that was met.
   bool stays_near() const;
   /// Whether the last attempt ended for want of patience.

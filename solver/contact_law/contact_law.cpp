@@ -126,6 +126,18 @@ void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shea
       (law.penalised ? -law.augmentation : 0.0) / law.share_pressure * left;
 }
 
+/// Its multiplier is the traction.
+void add_linear_shear(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump, ContactLawValue& value) {
+  const Matrix2d live = live_directions(law);
+  const Vector2d shear = live * (law.linear_shear->at_rest + law.linear_shear->stiffness * live * jump.tail<2>());
+  const Matrix2d by_jump = live * law.linear_shear->stiffness * live;
+  value.traction.tail<2>() = -shear;
+  value.traction_by_jump.bottomRightCorner<2, 2>() = -by_jump;
+  value.residual.tail<2>() = (shear - multiplier.tail<2>()) / law.friction_augmentation;
+  value.residual_by_multiplier.bottomRightCorner<2, 2>() = -Matrix2d::Identity() / law.friction_augmentation;
+  value.residual_by_jump.bottomRightCorner<2, 2>() = by_jump / law.friction_augmentation;
+}
+
 /// That of live parts: along the dead direction it neither is nor changes.
 Shear live_shear(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier, const Vector3d& jump) {
   const Vector3d live = live_part(law, multiplier);
@@ -150,6 +162,10 @@ ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const V
   value.residual_by_jump(0, 0) = value.traction_by_jump(0, 0) / law.augmentation;
   // While it is closed without penalty the residual is the gap itself: pressures of any size must not round it.
   if (status != ContactStatus::open && !law.penalised) value.residual[0] = -jump[0];
+  if (law.linear_shear && status != ContactStatus::open) {
+    add_linear_shear(law, multiplier, jump, value);
+    return value;
+  }
   const Shear shear = live_shear(law, status, multiplier, jump);
   if (law.share_pressure > 0.0) {
     add_shear_by_shares(law, status, shear, limiting_pressure(law, multiplier, jump), multiplier, jump, value);

@@ -2,10 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include <Eigen/Dense>
 
 namespace comma::solver {
+
+/// A shear that resists by `at_rest + stiffness * slip`, whatever presses.
+struct LinearShear {
+  Eigen::Vector2d at_rest = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero();
+};
 
 /// Coefficients are pressures a unit of length.
 struct ContactLaw {
@@ -27,6 +34,7 @@ struct ContactLaw {
   bool pointwise = false;
   double held_share = 0.0;  ///< positive: by shares, what stands for the present pressure over share_pressure, save in
                             ///< the limit of friction
+  std::optional<LinearShear> linear_shear;  ///< stands for the law of friction while the point is closed
 
   double penalty() const { return augmentation / (1.0 - pressure_share); }
   double friction_penalty() const { return friction_augmentation / (1.0 - shear_share); }

@@ -164,6 +164,7 @@ std::optional<VectorXd> NodalStep::solve_by_products(SchurComplement& schur, con
 }
 
 void NodalStep::take_multipliers(const VectorXd& forces, const VectorXd& jumps) {
+  force_changes_ = forces;
   for (std::size_t p = 0; p < points_.size(); ++p) {
     const Point& point = points_[p];
     Vector3d force = Vector3d::Zero(), jump = Vector3d::Zero();

@@ -43,6 +43,8 @@ class NodalStep {
                                                    NearInverse& near, const GmresOptions& options);
   /// After a solution.
   const std::vector<Change>& multiplier_changes() const { return changes_; }
+  /// One an unknown row: jumps are what bodies make of these, to more digits than what the law makes of jumps.
+  const Eigen::VectorXd& force_changes() const { return force_changes_; }
 
  private:
   /// The equations of a point whose multiplier has been eliminated, and how to find it again.
@@ -66,6 +68,7 @@ class NodalStep {
   std::vector<Point> points_;
   bool has_springs_ = false;
   std::vector<Change> changes_;  ///< one a point, springs last and without a node
+  Eigen::VectorXd force_changes_;
 };
 
 }  // namespace comma::solver

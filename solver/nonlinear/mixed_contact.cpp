@@ -61,6 +61,13 @@ MixedContact::MixedContact(const ContactDefinition& definition, const Model& mod
 }
 
 void MixedContact::pair(Positions positions, double time, double margin) {
+  if (is_secant() && secants_.linearisations > 0)
+    next_geometry_ = {{positions.begin(), positions.end()}, time, margin};
+  else
+    face(positions, time, margin);
+}
+
+void MixedContact::face(Positions positions, double time, double margin) {
   rows_.face(positions, time, margin);
   ++counters_.pairings;
   problem_.points = rows_.build(reference_);
@@ -68,6 +75,8 @@ void MixedContact::pair(Positions positions, double time, double margin) {
   share_friction();
   if (!started_) start_statuses(jumps(reference_));
   started_ = true;
+  if (secants_.predicts) begin_secants();
+  secants_.held = Eigen::VectorXd::Zero(rows_.full().rows());
   hold_back_points();
   for (std::size_t p = 0; p < points().size(); ++p)
     if (problem_.points[p].rows == 0) state_.statuses[p] = ContactStatus::open;
@@ -75,7 +84,16 @@ void MixedContact::pair(Positions positions, double time, double margin) {
                               rows_.full().rows());  // any would do for the next correction to start from
 }
 
+void MixedContact::accept_step(double duration) {
+  rates_ = (state_.multipliers - start_) / duration;
+  if (iterations_ == Iterations::secant) carry_contact();
+}
+
 void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
+  secants_.predicts = iterations_ == Iterations::secant;
+  secants_.linearisations = 0;
+  next_geometry_.reset();
+  if (secants_.predicts && started_) begin_secants();
   reference_ = faced_at_ = u;
   step_begins_ = true;
   augmentation_share_ = 1.0;
@@ -98,33 +116,6 @@ void MixedContact::share_friction() {
     else if (shared[static_cast<std::size_t>(point.nodes[0])])
       point.share_augmentation = mixed.friction_augmentation;
   }
-}
-
-bool MixedContact::can_iterate_jointly() const {
-  return std::ranges::none_of(definition_.zones, [](const ContactZone& zone) {
-    return zone.mixed.local_average || zone.mixed.penalised || zone.mixed.friction > 0.0;
-  });
-}
-
-int MixedContact::linearise(const Eigen::VectorXd& u, double time) {
-  geometry_change_ = geometry_change(mesh_, dofs_, reference_, faced_at_, u).share;
-  faced_at_ = u;
-  pair(positions_at(u, mesh_, dofs_), time);
-  const Eigen::VectorXd now = jumps(u);
-  int changes = 0;
-  forces_.setZero();
-  for (std::size_t p = 0; p < points().size(); ++p) {
-    const CondensedPoint& point = problem_.points[p];
-    if (point.rows == 0) continue;
-    const Vector3d pressure = multiplier_at(problem_, state_, point);
-    const Vector3d gap(now[point.first_row], 0.0, 0.0);
-    const bool stays_closed = point.bilateral && state_.statuses[p] != ContactStatus::open;
-    const ContactStatus status = contact_status(point.law, stays_closed, pressure, gap);
-    changes += status != state_.statuses[p];
-    state_.statuses[p] = status;
-    forces_[point.first_row] = point.weight * contact_law(point.law, status, pressure, gap).traction[0];
-  }
-  return changes;
 }
 
 bool MixedContact::is_faced_again() const {
@@ -261,7 +252,10 @@ void MixedContact::close_nearest(const Eigen::VectorXd& jumps) {
   }
 }
 
-Eigen::VectorXd MixedContact::forces() const { return rows_.reduced().transpose() * forces_; }
+Eigen::VectorXd MixedContact::forces() const {
+  if (secants_.predicts) return elimination_.transformation().transpose() * secants_.solved;
+  return rows_.reduced().transpose() * forces_;
+}
 
 /// Points come in the same order at every pairing.
 std::vector<int> MixedContact::row_keys() const {
@@ -311,15 +305,22 @@ void MixedContact::forget() {
 }
 
 int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& corrected) {
+  if (secants_.predicts && !can_predict()) {
+    secants_.predicts = false;
+    iterate(Iterations::settled);
+  }
+  if (std::exchange(secants_.predicts, false)) return 0;
   update_schur();
   // One step a time, statuses depend on the augmentation, and so does whether the iterations converge: it is the
   // user's.
-  if (!is_joint()) add_natural_augmentation();
+  if (!is_linear()) add_natural_augmentation();
   const std::vector<ContactStatus> statuses = state_.statuses;
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
-  forces.head(forces_.size()) = forces_;
+  forces.head(forces_.size()) = is_secant() ? secants_.held : forces_;
   settle_in_rounds(*schur_, [&] { return settle(before, offset, forces, corrected); });
   forces_ = forces.head(forces_.size());
+  if (is_secant())
+    note_solved(elimination_.transformation() * before + offset, elimination_.transformation() * corrected + offset);
   int changes = 0;
   for (std::size_t p = 0; p < statuses.size(); ++p) changes += statuses[p] != state_.statuses[p];
   return changes;
@@ -333,6 +334,11 @@ void MixedContact::begin_near(const Eigen::VectorXd& before, const Eigen::Vector
   const Eigen::VectorXd now = jumps(elimination_.transformation() * before + offset);
   problem_.begin = Eigen::VectorXd::Zero(problem_.free.size());
   problem_.begin.head(now.size()) = now;
+  if (!is_secant()) return;
+  // Linear laws are found from anywhere, and to most digits from where a stiff penalty gives the forces at hand.
+  for (const CondensedPoint& point : problem_.points)
+    if (point.rows > 0)
+      problem_.begin[point.first_row] = -problem_.held[point.first_row] / (point.weight * point.law.penalty());
 }
 
 /// The largest that gaps are differences of.

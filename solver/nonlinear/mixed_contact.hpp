@@ -29,6 +29,11 @@ namespace comma::solver {
 /// contact rows.
 class MixedContact {
  public:
+  /// What an iteration of Newton's method on the bodies does with contact. `settled`: solves its law exactly. `joint`:
+  /// one linear solve with statuses and geometry at hand, which change after it. `secant`: the same with the geometry
+  /// held, friction of penalties being known by the slip before (see secant_friction.hpp).
+  enum class Iterations : std::uint8_t { settled, joint, secant };
+
   /// Keeps references to its arguments. `support`: the reduced unknowns that contact can touch, rising.
   MixedContact(const ContactDefinition& definition, const Model& model, const DofMap& dofs,
                const Elimination& elimination, TangentSystem& tangent, Counters& counters, std::vector<int> support);
@@ -36,11 +41,11 @@ class MixedContact {
   /// A step of that duration begins at u: slips are counted from there, and multipliers are expected to go on as in the
   /// step before.
   void start_step(const Eigen::VectorXd& u, double duration);
-  void accept_step(double duration) { rates_ = (state_.multipliers - start_) / duration; }
+  void accept_step(double duration);
   /// Pressures, statuses and penalties as they are before a step, and back to them when it fails; points must be faced
   /// anew then.
-  void remember() { remembered_ = {state_, penalties_, started_, resumed_}; }
-  void restore() { std::tie(state_, penalties_, started_, resumed_) = remembered_; }
+  void remember() { remembered_ = {state_, penalties_, started_, resumed_, secants_}; }
+  void restore() { std::tie(state_, penalties_, started_, resumed_, secants_) = remembered_; }
   /// What a later computation must know of a step that has been accepted; null where its fields say all.
   std::shared_ptr<const ContactMemory> memory() const;
   /// Starts from displacements u, and goes on from what an earlier computation remembers (may be null); before any
@@ -48,17 +53,26 @@ class MixedContact {
   void begin_at(const Eigen::VectorXd& u, std::shared_ptr<const ContactMemory> memory);
   /// Faces the points anew. `positions`: where the nodes are now.
   void pair(Positions positions, double time, double margin = 0.0);
-  /// Whether statuses and geometry may change once an iteration of Newton's method on the bodies, instead of being
-  /// settled within it: standard contact without friction.
-  bool can_iterate_jointly() const;
-  /// Whether they do: `correct` then takes one step with the statuses at hand, and `linearise` gives the next.
-  void iterate_jointly(bool jointly) { problem_.one_step = jointly; }
-  bool is_joint() const { return problem_.one_step; }
-  /// Faces the points anew at u; statuses and forces are what the law says there. Returns the number of points whose
-  /// status changed.
+  /// Those that Code_Aster has, so that figures of a criterion that is loose are the same: joint ones for standard
+  /// contact without friction by Newton's method alone (`whole_newton`), secants for penalties that rub between nodes.
+  Iterations iterations_like_code_aster(bool whole_newton) const;
+  void iterate(Iterations iterations);
+  /// Whether `correct` takes one step with the statuses at hand, and `linearise` gives the next.
+  bool is_linear() const { return problem_.one_step; }
+  bool is_joint() const { return iterations_ == Iterations::joint; }
+  bool is_secant() const { return iterations_ == Iterations::secant; }
+  /// After a correction that has led to u: statuses and forces are what the law says there, of joint iterations where
+  /// points are faced anew. Returns the number of points whose status changed.
   int linearise(const Eigen::VectorXd& u, double time);
-  /// Whether nodes had moved by no more than RESI_GEOM since points were faced before (see geometry_change).
-  bool geometry_is_at_rest() const { return geometry_change_ <= definition_.joint_geometry_tolerance; }
+  /// After `linearise`, which has changed so many statuses: whether a residual small enough ends the iterations. Joint
+  /// ones ask for none, and nodes that had moved by no more than RESI_GEOM since points were faced before (see
+  /// geometry_change); secants that friction has acted wherever points are closed.
+  bool may_end(int changes) const;
+  /// By secants, the largest force at an unknown that conditions hold which the last linear solve did not balance: a
+  /// reaction is that of the solve.
+  double held_imbalance() const;
+  /// The residual of an iteration, as a share of the loads.
+  void note_residual(double share);
   /// Whether points overlap at u that wait for the geometry at the end of the step (see hold_back_points): points must
   /// be faced anew.
   bool leaves_overlap(const Eigen::VectorXd& u) const;
@@ -67,6 +81,9 @@ class MixedContact {
 
   /// Forces on the reduced unknowns.
   Eigen::VectorXd forces() const;
+  /// What of them the next correction starts without: by secants all that they exceed those of the last linear solve
+  /// by, since a stiff penalty asks for forces out of all proportion at first.
+  Eigen::VectorXd forces_left_out() const;
 
   /// Takes the reduced unknowns from `before` to `corrected`, which balances the present forces, and on to where the
   /// law of contact holds too. `offset`: g of u = T q + g. Returns the number of points whose status changed. Throws
@@ -100,6 +117,41 @@ class MixedContact {
   SolvedContact solved(const Eigen::VectorXd& u) const;
 
  private:
+  /// Of iterations by secants.
+  struct Secants {
+    /// A point that slides, in the next solve.
+    struct Relief {
+      std::size_t point = 0;
+      double stiffness = 0.0;  ///< what its secant is relieved of along the slip, a force a length
+      Eigen::Vector2d along;   ///< the slip, of length one
+      double shear = 0.0;      ///< a force
+    };
+    /// One a point: closed at the end of the last step, when this one began, one linearisation before; whether friction
+    /// acts.
+    std::vector<char> end_closed, began_closed, was_closed, rubs;
+    int linearisations = 0;  ///< in the step
+    std::vector<Relief> reliefs;
+    double last_residual = 1.0;  ///< as a share of the loads
+    bool predicts = false;       ///< the step begins: contact forces stay for one solve
+    Eigen::VectorXd carried;     ///< these, on all degrees of freedom; empty: none
+    Eigen::VectorXd held;        ///< forces on the rows in the last linear solve; 0 where these are new
+    Eigen::VectorXd solved;      ///< those of the last linear solve, on all degrees of freedom
+    Eigen::VectorXd shears;      ///< friction where that began, on all degrees of freedom
+  };
+
+  struct Geometry {
+    std::vector<Eigen::Vector3d> places;  ///< of the nodes
+    double time = 0.0, margin = 0.0;
+  };
+
+  void face(Positions positions, double time, double margin);
+  int face_and_linearise(const Eigen::VectorXd& u, double time);
+  int linearise_secants(const Eigen::VectorXd& u);
+  ContactStatus take_secant(std::size_t p, const Eigen::VectorXd& jumps, bool accelerated);
+  void carry_contact();
+  void begin_secants();
+  bool can_predict() const;
+  void note_solved(const Eigen::VectorXd& before, const Eigen::VectorXd& after);
   void start_statuses(const Eigen::VectorXd& jumps);
   std::vector<ZoneMemory> zone_definitions() const;
   RememberedPoint remembered(std::size_t p) const;
@@ -146,7 +198,10 @@ class MixedContact {
   /// Of what is given, between nodes: lowered in a step where nothing else leads to a solution.
   double augmentation_share_ = 1.0;
   bool rubs_by_shears_ = false;  ///< see CondensedSolution::by_shears
-  std::tuple<CondensedState, RaisedPenalties, bool, std::shared_ptr<const ContactMemory>> remembered_;
+  std::tuple<CondensedState, RaisedPenalties, bool, std::shared_ptr<const ContactMemory>, Secants> remembered_;
+  Iterations iterations_ = Iterations::settled;
+  Secants secants_;
+  std::optional<Geometry> next_geometry_;
   std::size_t spring_count_ = 0;
   Eigen::VectorXd forces_;  ///< on the rows
   Eigen::VectorXd reference_;

@@ -89,8 +89,8 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
     const Eigen::VectorXd before = state.reduced;
     Correction correction = correct(state, offset);
     if (relations_.update) offset = relations_.update(time, state);
-    const bool is_joint = mixed_ && mixed_->is_joint();
-    if (is_joint) correction.changes = mixed_->linearise(state.u, time);
+    const bool is_linear = mixed_ && mixed_->is_linear();
+    if (is_linear) correction.changes = mixed_->linearise(state.u, time);
     bool is_whole = true;
     if (searches(iteration))
       is_whole = search(before, external, offset, state) || !has_conditions();
@@ -99,9 +99,9 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
     const auto measure = distance(state);
     history.push_back(report(time, earlier + iteration, measure, correction.changes, state));
     if (observer_) observer_(history.back());
-    if (measure.converged && is_whole && (!is_joint || (correction.changes == 0 && mixed_->geometry_is_at_rest())) &&
-        is_satisfied(state.u)) {
-      if (!is_joint && !relations_.update) polish(state, external, offset);
+    if (mixed_) mixed_->note_residual(measure.relative);
+    if (measure.converged && is_whole && (!mixed_ || mixed_->may_end(correction.changes)) && is_satisfied(state.u)) {
+      if (!is_linear && !relations_.update) polish(state, external, offset);
       require_at_hand(time, state.u);
       criterion_.take_up(load_);
       return iteration;
@@ -210,8 +210,9 @@ void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& 
 
 ConvergenceCriterion::Measure NewtonSolver::distance(const NewtonState& state) const {
   const Eigen::VectorXd weighed = weights_.weighed(residual_);
-  return criterion_.measure(largest_component(weighed), load_, is_rounding(state), reference_.share(residual_),
-                            reference_.share_by_component(weighed));
+  const double held = mixed_ ? mixed_->held_imbalance() : 0.0;
+  return criterion_.measure(std::max(held, largest_component(weighed)), std::max(held, load_), is_rounding(state),
+                            reference_.share(residual_), reference_.share_by_component(weighed));
 }
 
 /// Whether the residual is no more than the last bits of u, moved to and fro, make of it. Not where u is so large that
@@ -225,6 +226,7 @@ bool NewtonSolver::is_rounding(const NewtonState& state) const {
 NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::VectorXd& offset) {
   const Eigen::VectorXd before = state.reduced;
   Eigen::MatrixXd step = residual_;
+  if (mixed_) step -= mixed_->forces_left_out();
   if (step.size()) tangent_.solve_once(step);
   Correction correction;
   if (mixed_) {
@@ -253,7 +255,7 @@ bool NewtonSolver::is_satisfied(const Eigen::VectorXd& u) const {
 
 bool NewtonSolver::searches(int iteration) const {
   return options_.line_search && !relations_.update && iteration > 1 && !tangent_.is_constant() &&
-         !(mixed_ && mixed_->is_joint());
+         !(mixed_ && mixed_->is_linear());
 }
 
 /// Takes the unknowns from `before` along the correction that has brought them where they are, and evaluates the

@@ -63,7 +63,7 @@ void StaticRun::run(const StepPlan& plan) {
   if (plan.instants.empty()) return;
   begin(plan);
   begin_measuring();
-  if (mixed_) mixed_->iterate_jointly(iterates_jointly());
+  if (mixed_) mixed_->iterate(contact_iterations());
   StepSequence sequence(plan);
   while (!sequence.finished()) {
     const double from = last_instant_;

@@ -70,10 +70,10 @@ class StaticRun {
   std::vector<char> closed_points() const;
   /// A step in which points close or open is taken again, shorter, as long as it may be: then it stands.
   bool refines_collision(const std::vector<char>& before, StepSequence& sequence) const;
-  /// Whether Newton's method takes statuses and geometry along, as Code_Aster does: figures are then those of the same
-  /// iterations (ssnv104d, to 2e-12).
-  bool iterates_jointly() const {
-    return problem_.contact->joint_iterations && !options_.line_search && mixed_->can_iterate_jointly();
+  /// Those of Code_Aster: figures are then those of the same iterations (ssnv104d, to 2e-12).
+  MixedContact::Iterations contact_iterations() const {
+    return options_.line_search ? MixedContact::Iterations::settled
+                                : mixed_->iterations_like_code_aster(problem_.contact->joint_iterations);
   }
   /// Where joint iterations fail, contact is settled within each: at once where the path does not matter, else in parts
   /// of a step that has been cut (ssnv506e), or where it cannot be.

@@ -79,7 +79,7 @@ int StaticRun::solve_jointly_or_settled(double instant, const Progress& before, 
     return solve_from_either_side(instant, before);
   } catch (const Error& error) {
     const bool is_cut_first = assembler_.has_memory() && !is_part;
-    if (!mixed_ || !mixed_->is_joint() || is_cut_first || !is_failure_of_step(error.code())) throw;
+    if (!mixed_ || !mixed_->is_linear() || is_cut_first || !is_failure_of_step(error.code())) throw;
   }
   return solve_settled(instant, before);
 }
@@ -89,13 +89,13 @@ int StaticRun::solve_settled(double instant, const Progress& before) {
   if (observer_)
     observer_(event_of_step(instant,
                             fmt::format("step to {:.6g}: again, with contact settled within each iteration", instant)));
-  mixed_->iterate_jointly(false);
-  const OnExit as_before([&] { mixed_->iterate_jointly(true); });
+  mixed_->iterate(MixedContact::Iterations::settled);
+  const OnExit as_before([&] { mixed_->iterate(contact_iterations()); });
   return solve_from_either_side(instant, before);
 }
 
 int StaticRun::solve_as_last_resort(double instant, const Progress& before, const Error& error) {
-  if (!mixed_ || !mixed_->is_joint() || !assembler_.has_memory()) throw advised(error, problem_, tangent_.unheld());
+  if (!mixed_ || !mixed_->is_linear() || !assembler_.has_memory()) throw advised(error, problem_, tangent_.unheld());
   try {
     return solve_settled(instant, before);
   } catch (const Error& again) {
