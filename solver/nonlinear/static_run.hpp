@@ -105,6 +105,8 @@ class StaticRun {
   void resize_multipliers(const ConditionSet& next);
   /// ITER_CONT_MULT changes a condition; unilateral conditions alone need no user's word on it.
   int active_set_limit() const;
+  /// Whether surfaces are faced anew at least as a step begins.
+  bool pairs_each_step() const;
   /// Whether surfaces that face each other for good have gaps that change nevertheless.
   bool thickness_changes() const;
 

@@ -39,7 +39,7 @@ int StaticRun::solve_step(double time) {
   std::optional<GeometryUpdates> geometry;
   if (updates) geometry.emplace(*problem_.contact, mesh_, dofs_, start_);
   for (int update = 0;; ++update) {
-    if (updates || !now_.paired || (update == 0 && thickness_changes()))
+    if (updates || !now_.paired || (update == 0 && (pairs_each_step() || thickness_changes())))
       pair(time, update == 0 ? start_ : now_.state.u, geometry ? &*geometry : nullptr);
     ConditionSet next = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, time);
     if (update == 0 || mixed_ || !same_rows(next, now_.conditions)) {
@@ -105,8 +105,9 @@ void StaticRun::guess(double time, const Eigen::VectorXd& offset) {
 void StaticRun::pair(double time, const Eigen::VectorXd& u, GeometryUpdates* updates) {
   now_.paired = true;
   if (!problem_.contact) return;
-  // Without updates surfaces face each other as the mesh has them, wherever the computation goes on from (U4.44.11).
-  if (problem_.contact->geometry_update == GeometryUpdate::none)
+  // Without updates surfaces face each other as the mesh has them, wherever the computation goes on from (U4.44.11), in
+  // the discrete formulation as each step begins (Code_Aster 17.3).
+  if (problem_.contact->geometry_update == GeometryUpdate::none && !pairs_each_step())
     now_.reference = Eigen::VectorXd::Zero(u.size());
   else
     now_.reference = updates ? updates->relaxed(now_.reference, u) : u;
@@ -132,6 +133,10 @@ int StaticRun::active_set_limit() const {
   constexpr int generous = 30;
   const int factor = problem_.contact ? std::max(1, problem_.contact->active_set_factor) : generous;
   return factor * std::max(1, now_.conditions.slot_count);
+}
+
+bool StaticRun::pairs_each_step() const {
+  return problem_.contact && problem_.contact->formulation == ContactFormulation::discrete;
 }
 
 bool StaticRun::thickness_changes() const {
