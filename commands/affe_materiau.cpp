@@ -29,7 +29,7 @@ struct VariableName {
 };
 
 constexpr VariableName variables[] = {
-    {"TEMP", Parameter::temperature, "TEMP", "TEMP"},    {"SECH", Parameter::drying, "TEMP", "TEMP"},
+    {"TEMP", Parameter::temperature, "TEMP", "TEMP"},    {"SECH", Parameter::drying, "SECH", "SECH"},
     {"HYDR", Parameter::hydration, "HYDR_ELNO", "HYDR"}, {"NEUT1", Parameter::neutral_1, "NEUT", "X1"},
     {"NEUT2", Parameter::neutral_2, "NEUT", "X1"},       {"NEUT3", Parameter::neutral_3, "NEUT", "X1"},
     {"EPSA", Parameter::strain_xx, "EPSA_ELNO", nullptr}};

@@ -68,10 +68,11 @@ ElementField command_variable_field(const FieldInput& input) {
 }
 
 ElementField variable_strain_field(const FieldInput& input) {
-  return at_points(input, "EPSI_R", {"EPTHER_L", "EPTHER_T", "EPTHER_N", "EPSECH", "EPHYDR"},
+  return at_points(input, "EPSI_R", {"EPTHER_L", "EPTHER_T", "EPTHER_N", "EPSECH", "EPHYDR", "EPPTOT"},
                    [&](int cell, const MaterialPoint& at, double* target) {
                      std::visit([&](const auto& material) { write_strains(material, at, target); },
                                 *material_of(input, cell).elasticity);
+                     target[5] = 0.0;  // of a pressure in pores, which comma knows none of
                    });
 }
 
