@@ -316,9 +316,7 @@ Product crea_champ(const Call& call, Context& context) {
   FieldPtr product = made_by(call, type, context);
   check_type(call, type, product->field);
   finish(call, *product);
-  if (!call.reuse) return product;
-  call.result->data = product;
-  return nullptr;
+  return product;
 }
 
 }  // namespace comma::commands

@@ -127,7 +127,9 @@ enum class Cost { cheap, solve };
 enum class Role { value, verdict, output, naming, setup };
 /// Whether no verdict depends on what the command makes itself: where comma cannot do it, an alarm is enough.
 inline bool only_writes(Role role) { return role == Role::output || role == Role::naming; }
-enum class Reuse { none, allowed, compulsory };
+/// What reuse= does: nothing is to be written, the concept may be or must be changed in place, or it is only checked,
+/// and the command makes a new one beside it.
+enum class Reuse { none, allowed, compulsory, beside };
 
 struct ProductPage {
   std::string when;  ///< empty: always

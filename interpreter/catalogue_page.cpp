@@ -167,7 +167,8 @@ Role role_from(const std::string& word) {
 void read_reuse(const Packed& packed, CommandPage& page) {
   const Packed* found = packed.find("reuse");
   if (found == nullptr) return;
-  page.reuse = text_at(*found, "policy") == "compulsory" ? Reuse::compulsory : Reuse::allowed;
+  const std::string policy = text_at(*found, "policy");
+  page.reuse = policy == "compulsory" ? Reuse::compulsory : policy == "beside" ? Reuse::beside : Reuse::allowed;
   page.reuse_same_as = texts(*found->find("same_as"));
 }
 

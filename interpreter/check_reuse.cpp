@@ -63,6 +63,7 @@ class ReuseCheck {
     if (!same && !named.empty())
       error(fmt::format("reuse={} must be the concept of {}", handle->name, fmt::join(page_.reuse_same_as, " or ")),
             reuse_->value_span);
+    if (page_.reuse == Reuse::beside) return;
     checked.call.result = handle;
     checked.call.reuse = true;
     checked.product_type = handle->type;

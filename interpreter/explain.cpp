@@ -92,8 +92,10 @@ class Writer {
 
   void reuse(const CommandPage& page) {
     if (page.reuse == Reuse::none) return;
-    line("  reuse      {}, with the concept of {}", page.reuse == Reuse::compulsory ? "compulsory" : "allowed",
-         fmt::join(page.reuse_same_as, " or "));
+    const std::string_view policy = page.reuse == Reuse::compulsory ? "compulsory"
+                                    : page.reuse == Reuse::beside   ? "allowed (a new concept all the same)"
+                                                                    : "allowed";
+    line("  reuse      {}, with the concept of {}", policy, fmt::join(page.reuse_same_as, " or "));
   }
 
   std::string types(const KeywordPage& page) const {

@@ -146,7 +146,7 @@ class PageBuilder {
   void check_reuse(const Json& reuse) const {
     allow(reuse, "reuse", {"policy", "same_as"});
     demand(reuse, "reuse", {"policy", "same_as"});
-    choose(reuse, "policy", {"allowed", "compulsory"});
+    choose(reuse, "policy", {"allowed", "compulsory", "beside"});
   }
 
   /// Fetches what `use:` names and spreads "DX, DY, DZ: {...}" into three keywords.
