@@ -21,8 +21,8 @@ void Context::write(int unit, const std::string& extension, int default_unit, st
   write(files.output(unit, extension, default_unit), text);
 }
 
-void Context::begin_anew_if_released(int unit, const std::filesystem::path& path) {
-  if (released_units.erase(unit) == 0) return;
+void Context::begin_anew_if_renewed(int unit, const std::filesystem::path& path) {
+  if (renewed_units.erase(unit) == 0) return;
   written.erase(path.string());
   med_files.erase(path.string());
 }

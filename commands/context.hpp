@@ -68,7 +68,7 @@ struct Context {
   bool only_checks = false;  ///< nothing will be solved
   /// Outputs that this run has opened: the first writing replaces, later ones append.
   std::set<std::string> written = {};
-  std::set<int> released_units = {};                     ///< IMPR_RESU begins anew what these held
+  std::set<int> renewed_units = {};                      ///< IMPR_RESU begins anew what these hold
   std::map<std::string, WrittenMedFile> med_files = {};  ///< outputs of the format MED, likewise
 
   /// Appends text to the output of a unit; the first time in a run the file starts anew.
@@ -77,8 +77,8 @@ struct Context {
   /// The same to the output of a unit (see Files::output), or to the terminal.
   void write(int unit, const std::string& extension, int default_unit, std::string_view text);
 
-  /// Of IMPR_RESU: starts the output of a unit anew if the file has released the unit (DEFI_FICHIER).
-  void begin_anew_if_released(int unit, const std::filesystem::path& path);
+  /// Of IMPR_RESU: starts the output of a unit anew if DEFI_FICHIER has associated it so.
+  void begin_anew_if_renewed(int unit, const std::filesystem::path& path);
 
   /// Keeps a verdict and shows it.
   void report(Verdict verdict);

@@ -283,7 +283,7 @@ Product impr_resu(const Call& call, Context& context) {
   const int unit = call.has("UNITE") ? static_cast<int>(call.integer("UNITE")) : format.unit;
   const bool is_shown = word == "RESULTAT" && context.files.is_terminal(unit);
   const auto path = is_shown ? std::filesystem::path() : context.files.output(unit, format.extension, format.unit);
-  context.begin_anew_if_released(unit, path);
+  context.begin_anew_if_renewed(unit, path);
   check_model(call, word);
   for (const Keywords& print : call.factors("RESU")) {
     warn_of_missing_instants("IMPR_RESU", print, context.diagnostics);
