@@ -1,4 +1,5 @@
 #include "commands/alarms/known_names.hpp"
+#include "solver/model/stress_names.hpp"
 
 #include <fmt/format.h>
 
@@ -71,9 +72,10 @@ std::optional<std::vector<std::string>> components_of_field(std::string_view fie
   if (is_users_own(field)) return std::vector<std::string>{"X"};
   const std::string_view quantity = field.substr(0, 4);
   if (quantity == "SIEF" || quantity == "SIGM") {
-    return std::vector<std::string>{"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ", "SIP", "N",   "VY",  "VZ",  "MT",
-                                    "MFY",  "MFZ",  "NXX",  "NYY",  "NXY",  "MXX",  "MYY", "MXY", "QX",  "QY",  "S1X",
-                                    "S1Y",  "S1Z",  "S2X",  "S2Y",  "S2Z",  "S3X",  "S3Y", "S3Z", "S4X", "S4Y", "S4Z"};
+    std::vector<std::string> names{"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ", "SIP", "N",   "VY", "VZ", "MT",
+                                   "MFY",  "MFZ",  "NXX",  "NYY",  "NXY",  "MXX",  "MYY", "MXY", "QX", "QY"};
+    names.insert(names.end(), solver::hourglass_stress_names.begin(), solver::hourglass_stress_names.end());
+    return names;
   }
   static constexpr std::array<std::string_view, 5> strains = {"EPSI", "EPME", "EPSG", "EPMG", "EPSP"};
   if (std::ranges::find(strains, quantity) != strains.end())

@@ -49,9 +49,9 @@ const std::map<std::string, Names, std::less<>>& components_by_quantity() {
   return table;
 }
 
-bool is_numbered(std::string_view name, char letter) {
-  return name.size() > 1 && name[0] == letter &&
-         std::ranges::all_of(name.substr(1), [](unsigned char c) { return std::isdigit(c) != 0; });
+bool is_numbered(std::string_view name, std::string_view word) {
+  return name.size() > word.size() && name.starts_with(word) &&
+         std::ranges::all_of(name.substr(word.size()), [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
 }  // namespace
@@ -80,7 +80,9 @@ Names components_known(const FieldType& type) {
 
 bool has_component(const FieldType& type, const std::string& name) {
   // Neutral values are X1, X2 ... and internal variables V1, V2 ...
-  if ((type.quantity == "NEUT" && is_numbered(name, 'X')) || (type.quantity == "VARI" && is_numbered(name, 'V')))
+  // What varies over hexahedra with one point of integration is FSTAB1, FSTAB2 ...
+  if ((type.quantity == "NEUT" && is_numbered(name, "X")) || (type.quantity == "VARI" && is_numbered(name, "V")) ||
+      (type.quantity == "SIEF" && is_numbered(name, "FSTAB")))
     return true;
   const Names known = components_known(type);
   return std::ranges::find(known, name) != known.end();

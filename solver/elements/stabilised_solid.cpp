@@ -1,5 +1,5 @@
 // Hexahedra on eight nodes with one point of integration and a stabilisation (3D_SI; hourglass.hpp). Their stresses are
-// those of the point and twelve forces on the hourglass patterns, S1X .. S4Z, which are part of what the next step
+// those of the point and what varies beside it over the cell, FSTAB1 .. FSTAB72, which is part of what the next step
 // begins from.
 #include <algorithm>
 #include <cmath>
@@ -13,26 +13,16 @@ namespace comma::solver {
 namespace {
 
 constexpr int stress_count = solid_stress_names.size();
-constexpr int pattern_count = hourglass_force_names.size();
+constexpr int pattern_count = hourglass_stress_names.size();
 constexpr int shown_count = stress_count + pattern_count;
 constexpr auto shown_names = [] {
   std::array<std::string_view, shown_count> names;
-  std::ranges::copy(hourglass_force_names, std::ranges::copy(solid_stress_names, names.begin()).out);
+  std::ranges::copy(hourglass_stress_names, std::ranges::copy(solid_stress_names, names.begin()).out);
   return names;
 }();
-using PatternForces = Eigen::Matrix<double, pattern_count, 1>;
-
-PatternForces in_a_column(const Hourglass::Patterns& patterns) {
-  PatternForces column;
-  for (int pattern = 0; pattern < 4; ++pattern) column.segment<3>(3 * pattern) = patterns.row(pattern).transpose();
-  return column;
-}
-
-Hourglass::Patterns in_rows(const PatternForces& column) {
-  Hourglass::Patterns patterns;
-  for (int pattern = 0; pattern < 4; ++pattern) patterns.row(pattern) = column.segment<3>(3 * pattern).transpose();
-  return patterns;
-}
+using Stresses = Hourglass::Stresses;
+using RowwiseStresses = Eigen::Matrix<double, 6, 12, Eigen::RowMajor>;  ///< as results show them
+static_assert(pattern_count == RowwiseStresses::SizeAtCompileTime);
 
 /// The stresses alone out of what is shown.
 std::vector<double> of_points(std::span<const double> shown) {
@@ -43,7 +33,7 @@ std::vector<double> of_points(std::span<const double> shown) {
   return stresses;
 }
 
-/// A block with one point, and the patterns besides. `Base` gives `pattern_forces` and the tangent of the patterns.
+/// A block with one point, and the patterns besides. `Base` gives the stresses and the tangent of the patterns.
 template <class Base>
 class Stabilised : public Base {
  public:
@@ -65,7 +55,8 @@ class Stabilised : public Base {
     if (shown.empty()) return add_internal_forces(u, state, forces);
     Base::add_forces_of_stresses(u, state, of_points(shown), forces);
     for (int element = 0; element < this->map_.element_count(); ++element)
-      spread(element, shown_patterns(shown, element), forces);
+      spread(element, hourglass(element, u, state).forces(shown_patterns(shown, element), shown_middle(shown, element)),
+             forces);
   }
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     std::vector<double> points(out.size() / shown_count * stress_count);
@@ -73,8 +64,8 @@ class Stabilised : public Base {
     for (int element = 0; element < this->map_.element_count(); ++element) {
       double* target =
           std::copy_n(points.data() + element * stress_count, stress_count, out.data() + element * shown_count);
-      const PatternForces patterns = pattern_forces(element, u, state);
-      std::copy(patterns.begin(), patterns.end(), target);
+      Eigen::Map<RowwiseStresses> varying(target);
+      varying = pattern_stresses(element, u, state);
     }
   }
   void subtract_imposed_stresses(const ImposedStrains& imposed, const VariableState& state,
@@ -91,8 +82,7 @@ class Stabilised : public Base {
     Base::energies(u, state, out);
     for (int element = 0; element < this->map_.element_count(); ++element)
       out[static_cast<std::size_t>(element)] +=
-          0.5 *
-          pattern_forces(element, u, state).dot(in_a_column(hourglass(element).amplitudes(displacements(element, u))));
+          0.5 * additional_forces(element, u, state).cwiseProduct(displacements(element, u)).sum();
   }
   void energy_densities(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> shown,
                         std::span<const double> variables, std::span<double> out) const override {
@@ -100,22 +90,28 @@ class Stabilised : public Base {
   }
 
  protected:
-  virtual PatternForces pattern_forces(int element, const Eigen::VectorXd& u, const VariableState& state) const = 0;
-  virtual Hourglass::Stiffness pattern_stiffness(int element, const Eigen::VectorXd& u,
-                                                 const VariableState& state) const = 0;
+  virtual Hourglass hourglass(int element, const Eigen::VectorXd& u, const VariableState& state) const = 0;
+  virtual Stresses pattern_stresses(int element, const Eigen::VectorXd& u, const VariableState& state) const = 0;
+  /// The forces on the nodes beside those of the point, and their derivative.
+  virtual Hourglass::Places additional_forces(int element, const Eigen::VectorXd& u,
+                                              const VariableState& state) const = 0;
+  virtual Hourglass::Stiffness additional_stiffness(int element, const Eigen::VectorXd& u,
+                                                    const VariableState& state) const = 0;
 
-  Hourglass hourglass(int element) const { return Hourglass(this->coordinates(element)); }
   Hourglass::Places displacements(int element, const Eigen::VectorXd& u) const {
     return Base::relative_displacements(u, this->dofs_of(element)).relative;
   }
-  static PatternForces shown_patterns(std::span<const double> shown, int element) {
-    return Eigen::Map<const PatternForces>(shown.data() + element * shown_count + stress_count);
+  static Stresses shown_patterns(std::span<const double> shown, int element) {
+    return Eigen::Map<const RowwiseStresses>(shown.data() + element * shown_count + stress_count);
+  }
+  static Vector6d shown_middle(std::span<const double> shown, int element) {
+    return Eigen::Map<const Vector6d>(shown.data() + element * shown_count);
   }
 
   void add_pattern_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                              double* values) const {
     for (int element = 0; element < this->map_.element_count(); ++element) {
-      Eigen::Matrix<double, 24, 24> k = hourglass(element).nodal_stiffness(pattern_stiffness(element, u, state));
+      Hourglass::Stiffness k = additional_stiffness(element, u, state);
       k = (0.5 * (k + k.transpose())).eval();
       make_translation_exact<8, 3>(k, Base::invariant_directions());
       this->map_.add(element, k.data(), column_starts, values);
@@ -123,12 +119,12 @@ class Stabilised : public Base {
   }
   void add_pattern_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const {
     for (int element = 0; element < this->map_.element_count(); ++element)
-      spread(element, pattern_forces(element, u, state), forces);
+      spread(element, additional_forces(element, u, state), forces);
   }
 
  private:
-  void spread(int element, const PatternForces& patterns, ForceSum forces) const {
-    Base::scatter_forces(hourglass(element).nodal_forces(in_rows(patterns)), this->dofs_of(element), forces);
+  void spread(int element, const Hourglass::Places& at_nodes, ForceSum forces) const {
+    Base::scatter_forces(at_nodes, this->dofs_of(element), forces);
   }
 };
 
@@ -142,13 +138,25 @@ class StabilisedElastic final : public Stabilised<ContinuumBlock<3, 8, false>> {
   }
 
  private:
-  Hourglass::Stiffness pattern_stiffness(int element, const Eigen::VectorXd&,
-                                         const VariableState& state) const override {
-    const Behaviour behaviour(*this, element, 0, coordinates(element), state);
-    return hourglass(element).stiffness(*behaviour.law, Hourglass::Projection::bending);
+  Matrix6d law_of(int element, const VariableState& state) const {
+    return *Behaviour(*this, element, 0, coordinates(element), state).law;
   }
-  PatternForces pattern_forces(int element, const Eigen::VectorXd& u, const VariableState& state) const override {
-    return pattern_stiffness(element, u, state) * in_a_column(hourglass(element).amplitudes(displacements(element, u)));
+  Hourglass hourglass(int element, const Eigen::VectorXd&, const VariableState& state) const override {
+    return {coordinates(element), Hourglass::Projection::bending, poisson_of(law_of(element, state))};
+  }
+  Hourglass::Stiffness additional_stiffness(int element, const Eigen::VectorXd& u,
+                                            const VariableState& state) const override {
+    return hourglass(element, u, state).stiffness(law_of(element, state));
+  }
+  Stresses pattern_stresses(int element, const Eigen::VectorXd& u, const VariableState& state) const override {
+    const Hourglass cell = hourglass(element, u, state);
+    return cell.stresses(law_of(element, state), cell.amplitudes(displacements(element, u)));
+  }
+  Hourglass::Places additional_forces(int element, const Eigen::VectorXd& u,
+                                      const VariableState& state) const override {
+    const Eigen::Matrix<double, 24, 1> moved = displacements(element, u).reshaped<Eigen::RowMajor>();
+    const Eigen::Matrix<double, 24, 1> forces = additional_stiffness(element, u, state) * moved;
+    return forces.reshaped<Eigen::RowMajor>(8, 3);
   }
 };
 
@@ -182,40 +190,59 @@ class StabilisedInelastic final : public Stabilised<InelasticBlock<3, 8, false>>
   bool is_elastically_linear() const override { return false; }
   void accept(const Eigen::VectorXd& u, const VariableState& state) override {
     for (int element = 0; element < map_.element_count(); ++element)
-      start(element, u, pattern_forces(element, u, state));
+      start(element, u, state, pattern_stresses(element, u, state));
     Base::accept(u, state);
   }
   void resume(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> shown,
               std::span<const double> variables) override {
     Base::resume(u, state, of_points(shown), variables);
     for (int element = 0; element < map_.element_count(); ++element)
-      start(element, u, shown.empty() ? PatternForces(PatternForces::Zero()) : shown_patterns(shown, element));
+      start(element, u, state, shown.empty() ? Stresses(Stresses::Zero()) : shown_patterns(shown, element));
   }
 
  private:
   /// Where the step began.
   struct Start {
-    PatternForces forces = PatternForces::Zero();
-    PatternForces amplitudes = PatternForces::Zero();
+    Stresses stresses = Stresses::Zero();
+    Hourglass::Patterns amplitudes = Hourglass::Patterns::Zero();
   };
 
-  void start(int element, const Eigen::VectorXd& u, const PatternForces& forces) {
-    started_[static_cast<std::size_t>(element)] = {
-        forces, in_a_column(hourglass(element).amplitudes(displacements(element, u)))};
+  void start(int element, const Eigen::VectorXd& u, const VariableState& state, const Stresses& stresses) {
+    started_[static_cast<std::size_t>(element)] = {stresses,
+                                                   hourglass(element, u, state).amplitudes(displacements(element, u))};
   }
-  Hourglass::Stiffness pattern_stiffness(int element, const Eigen::VectorXd& u,
-                                         const VariableState& state) const override {
+  PointResponse at_the_point(int element, const Eigen::VectorXd& u, const VariableState& state) const {
     const Coordinates x = coordinates(element);
     const auto moved = relative_displacements(u, dofs_of(element));
     const Eigen::Matrix3d gradient = gradient_of_displacement(moved, samples_[0], locate(x, samples_[0]));
-    const Matrix6d tangent = respond(element, 0, x, gradient, state, &PointLaw::respond).tangent;
-    return hourglass(element).stiffness(tangent, projection_);
+    return respond(element, 0, x, gradient, state, &PointLaw::respond);
   }
-  PatternForces pattern_forces(int element, const Eigen::VectorXd& u, const VariableState& state) const override {
+  Hourglass hourglass(int element, const Matrix6d& tangent) const {
+    const bool bends = projection_ == Hourglass::Projection::bending;
+    return {coordinates(element), projection_, bends ? poisson_of(tangent) : 0.0};
+  }
+  Hourglass hourglass(int element, const Eigen::VectorXd& u, const VariableState& state) const override {
+    return hourglass(element, at_the_point(element, u, state).tangent);
+  }
+  Hourglass::Stiffness additional_stiffness(int element, const Eigen::VectorXd& u,
+                                            const VariableState& state) const override {
+    const Matrix6d tangent = at_the_point(element, u, state).tangent;
+    return hourglass(element, tangent).stiffness(tangent);
+  }
+  Stresses pattern_stresses(int element, const Eigen::VectorXd& u, const Hourglass& cell,
+                            const Matrix6d& tangent) const {
     const Start& before = started_[static_cast<std::size_t>(element)];
-    const PatternForces change =
-        in_a_column(hourglass(element).amplitudes(displacements(element, u))) - before.amplitudes;
-    return before.forces + pattern_stiffness(element, u, state) * change;
+    return before.stresses + cell.stresses(tangent, cell.amplitudes(displacements(element, u)) - before.amplitudes);
+  }
+  Stresses pattern_stresses(int element, const Eigen::VectorXd& u, const VariableState& state) const override {
+    const Matrix6d tangent = at_the_point(element, u, state).tangent;
+    return pattern_stresses(element, u, hourglass(element, tangent), tangent);
+  }
+  Hourglass::Places additional_forces(int element, const Eigen::VectorXd& u,
+                                      const VariableState& state) const override {
+    const PointResponse response = at_the_point(element, u, state);
+    const Hourglass cell = hourglass(element, response.tangent);
+    return cell.forces(pattern_stresses(element, u, cell, response.tangent), response.stress);
   }
 
   Hourglass::Projection projection_;

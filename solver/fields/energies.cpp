@@ -10,10 +10,14 @@
 #include "solver/error.hpp"
 #include "solver/fields/tensor_reader.hpp"
 #include "solver/mesh/place.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 
 namespace {
+
+/// Beside stretches; they have some 1e-16.
+constexpr double pressure_of_roundings = 1e-9;
 
 /// A scalar field on the points of a tensor field.
 template <class ValueAt>
@@ -53,14 +57,19 @@ class MaterialAtPoints {
   ContinuumPoints points_;
 };
 
-Hourglass::Patterns pattern_forces(const ElementField& stresses, int cell) {
-  static constexpr std::string_view names[4][3] = {
-      {"S1X", "S1Y", "S1Z"}, {"S2X", "S2Y", "S2Z"}, {"S3X", "S3Y", "S3Z"}, {"S4X", "S4Y", "S4Z"}};
-  Hourglass::Patterns forces;
-  for (int pattern = 0; pattern < 4; ++pattern)
-    for (int axis = 0; axis < 3; ++axis)
-      forces(pattern, axis) = stresses.at(cell, 0, stresses.component(names[pattern][axis]));
-  return forces;
+Hourglass::Stresses varying_stresses(const ElementField& stresses, int cell) {
+  Hourglass::Stresses varying;
+  for (std::size_t i = 0; i < hourglass_stress_names.size(); ++i)
+    varying(static_cast<Eigen::Index>(i / 12), static_cast<Eigen::Index>(i % 12)) =
+        stresses.at(cell, 0, stresses.component(std::string(hourglass_stress_names[i])));
+  return varying;
+}
+
+Vector6d stress_at_the_middle(const ElementField& stresses, int cell) {
+  Vector6d stress;
+  for (std::size_t i = 0; i < solid_stress_names.size(); ++i)
+    stress[static_cast<Eigen::Index>(i)] = stresses.at(cell, 0, stresses.component(std::string(solid_stress_names[i])));
+  return stress;
 }
 
 /// Of a field at nodes, less what the first node has: patterns do not see it, and digits would be lost to it.
@@ -99,33 +108,42 @@ void add_of_stabilised_cells(const Model& model, const ElementField& stresses, E
 }  // namespace
 
 bool is_stabilised(const ElementField& stresses, int cell) {
-  const int first = stresses.component("S1X");
+  const int first = stresses.component("FSTAB1");
   return first >= 0 && stresses.points(cell) == 1 && !std::isnan(stresses.at(cell, 0, first));
 }
 
 void add_stabilisation_energy(const FieldInput& input, const ElementField& stresses, ElementField& densities) {
-  if (stresses.component("S1X") < 0) return;
+  if (stresses.component("FSTAB1") < 0) return;
   MaterialAtPoints points(input, stresses);
   const Mesh& mesh = *input.model.mesh;
   add_of_stabilised_cells(input.model, stresses, densities, [&](int cell) {
     const Matrix6d law = solid_stiffness(material_of(input, cell), points.at(cell, 0));
-    const Hourglass::Stiffness stiffness = Hourglass(places(mesh, cell)).stiffness(law, Hourglass::Projection::bending);
-    const Eigen::Matrix<double, 12, 1> forces = pattern_forces(stresses, cell).reshaped<Eigen::RowMajor>();
-    return 0.5 * forces.dot(stiffness.completeOrthogonalDecomposition().solve(forces));
+    return Hourglass(places(mesh, cell), Hourglass::Projection::bending, poisson_of(law))
+        .energy(law, varying_stresses(stresses, cell), stress_at_the_middle(stresses, cell));
   });
 }
 
-void add_stabilisation_work(const Model& model, const ElementField& stresses, const NodalField& displacements,
+void add_stabilisation_work(const FieldInput& input, const ElementField& stresses, const NodalField& displacements,
                             const ElementField* stresses_before, const NodalField* displacements_before,
                             ElementField& densities) {
-  if (stresses.component("S1X") < 0) return;
-  const Mesh& mesh = *model.mesh;
-  add_of_stabilised_cells(model, stresses, densities, [&](int cell) {
-    Hourglass::Patterns mean = 0.5 * pattern_forces(stresses, cell);
+  if (stresses.component("FSTAB1") < 0) return;
+  MaterialAtPoints points(input, stresses);
+  const Mesh& mesh = *input.model.mesh;
+  add_of_stabilised_cells(input.model, stresses, densities, [&](int cell) {
+    Hourglass::Stresses varying = 0.5 * varying_stresses(stresses, cell);
+    Vector6d middle = 0.5 * stress_at_the_middle(stresses, cell);
     Hourglass::Places moved = relative_values(mesh, cell, displacements);
-    if (stresses_before && is_stabilised(*stresses_before, cell)) mean += 0.5 * pattern_forces(*stresses_before, cell);
+    if (stresses_before && is_stabilised(*stresses_before, cell)) {
+      varying += 0.5 * varying_stresses(*stresses_before, cell);
+      middle += 0.5 * stress_at_the_middle(*stresses_before, cell);
+    }
     if (displacements_before) moved -= relative_values(mesh, cell, *displacements_before);
-    return mean.cwiseProduct(Hourglass(places(mesh, cell)).amplitudes(moved)).sum();
+    // What patterns make in a body that flows has no pressure.
+    const bool flows =
+        varying.topRows<3>().colwise().sum().norm() < pressure_of_roundings * varying.topRows<3>().norm();
+    const double poisson = flows ? 0.0 : poisson_of(solid_stiffness(material_of(input, cell), points.at(cell, 0)));
+    const auto projection = flows ? Hourglass::Projection::deviatoric : Hourglass::Projection::bending;
+    return Hourglass(places(mesh, cell), projection, poisson).forces(varying, middle).cwiseProduct(moved).sum();
   });
 }
 

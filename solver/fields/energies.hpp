@@ -23,13 +23,13 @@ ElementField total_energy_density(const ElementField& stresses, const ElementFie
                                   const ElementField* stresses_before, const ElementField* strains_before,
                                   const ElementField* previous);
 
-/// Adds to ENEL_ELGA of elastic hexahedra with one point (3D_SI) that of the forces on their hourglass patterns, S1X ..
-/// S4Z of `stresses`, as a mean over the volume of the point: 1/2 Q : compliance : Q.
+/// Adds to ENEL_ELGA of elastic hexahedra with one point (3D_SI) that of the stress that varies over them, FSTAB1 ..
+/// FSTAB72 of `stresses`, as a mean over the volume of the point.
 void add_stabilisation_energy(const FieldInput& input, const ElementField& stresses, ElementField& densities);
 
-/// Adds to ETOT_ELGA of hexahedra with one point the work of these forces since the step before, on the change of the
-/// patterns, by the trapezoidal rule. The fields of the step before are null at the first one.
-void add_stabilisation_work(const Model& model, const ElementField& stresses, const NodalField& displacements,
+/// Adds to ETOT_ELGA of hexahedra with one point the work of this stress since the step before, by the trapezoidal
+/// rule. The fields of the step before are null at the first one.
+void add_stabilisation_work(const FieldInput& input, const ElementField& stresses, const NodalField& displacements,
                             const ElementField* stresses_before, const NodalField* displacements_before,
                             ElementField& densities);
 
@@ -39,7 +39,7 @@ ElementField bar_work(const Model& model, std::span<const int> bars, const Eleme
                       const NodalField& displacements, const ElementField* forces_before,
                       const NodalField* displacements_before);
 
-/// Whether a cell has forces on hourglass patterns among its stresses.
+/// Whether a cell has a stress that varies over it among its stresses.
 bool is_stabilised(const ElementField& stresses, int cell);
 
 /// The integral over each continuum cell of the components of a field at Gauss points or at element nodes (ENEL_ELEM

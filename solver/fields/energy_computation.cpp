@@ -155,7 +155,7 @@ Field FieldComputation::total_energy(std::size_t step) {
   const ElementField& stress = stresses_beside_plates(step);
   ElementField energies =
       total_energy_density(stress, whole_field("EPSI_ELGA", step), stress_before, strain_before, before);
-  add_stabilisation_work(*problem_.model, stress, displacement(step), stress_before, displacement_before, energies);
+  add_stabilisation_work(input(), stress, displacement(step), stress_before, displacement_before, energies);
   return energies;
 }
 

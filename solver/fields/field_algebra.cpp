@@ -42,7 +42,7 @@ std::set<std::string_view> known_components(const ElementField& field, Formulati
   if (continuum == 2) add(plane_stress_names);
   if (continuum == 3) add(solid_stress_names);
   if (mixed_field_count(formulation) > 0) add(std::array{std::string_view("SIP")});
-  if (is_stabilised(formulation, type) && field.support == Support::gauss_point) add(hourglass_force_names);
+  if (is_stabilised(formulation, type) && field.support == Support::gauss_point) add(hourglass_stress_names);
   if (is_beam(formulation)) add(beam_force_names);
   if (is_bar(formulation)) add(std::array{beam_force_names[0]});
   if (is_discrete(formulation)) add(discrete_force_names(formulation));
