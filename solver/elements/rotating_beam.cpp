@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <unsupported/Eigen/AutoDiff>
 
+#include "solver/elements/beam_points.hpp"
 #include "solver/elements/beam_stiffness.hpp"
 #include "solver/elements/slender.hpp"
 #include "solver/error.hpp"
@@ -14,6 +15,8 @@
 namespace comma::solver {
 
 namespace {
+
+constexpr int reported_count = 6 * beam_point_count;
 
 constexpr int roll_variable = 1;
 using Vector12d = Eigen::Matrix<double, 12, 1>;
@@ -148,12 +151,13 @@ class RotatingBeam final : public ElementBlock {
   void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported,
                               ForceSum forces) const override {
     for (int element = 0; element < map_.element_count(); ++element)
-      add(element, turned<double>(trial(element, u).axes.transpose(), end_forces(reported.data() + 12 * element)),
+      add(element,
+          turned<double>(trial(element, u).axes.transpose(), end_forces(reported.data() + reported_count * element)),
           forces);
   }
 
   std::span<const int> cells() const override { return cells_; }
-  int point_count() const override { return 2; }
+  int point_count() const override { return beam_point_count; }
   std::span<const std::string_view> stress_names() const override { return beam_force_names; }
   bool is_linear() const override { return false; }
   bool is_constant() const override { return true; }
@@ -162,7 +166,9 @@ class RotatingBeam final : public ElementBlock {
   void stresses(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const Vector12d force = trial(element, u).force;
-      for (int i = 0; i < 12; ++i) out[static_cast<std::size_t>(12 * element + i)] = i < 6 ? -force[i] : force[i];
+      std::array<double, 12> ends;
+      for (int i = 0; i < 12; ++i) ends[static_cast<std::size_t>(i)] = i < 6 ? -force[i] : force[i];
+      write_at_points(ends, out.subspan(static_cast<std::size_t>(reported_count * element), reported_count));
     }
   }
 
@@ -202,7 +208,8 @@ class RotatingBeam final : public ElementBlock {
       const double* own =
           variables.empty() ? nullptr : variables.data() + point_count() * rotating_beam_variables * element;
       const double roll = own == nullptr ? carried_roll(element, u) : own[roll_variable];
-      begin(element, u, roll, reported.empty() ? Vector12d::Zero().eval() : end_forces(reported.data() + 12 * element));
+      begin(element, u, roll,
+            reported.empty() ? Vector12d::Zero().eval() : end_forces(reported.data() + reported_count * element));
       past_[static_cast<std::size_t>(element)].elongation = own == nullptr ? 0.0 : own[2];
     }
   }
@@ -357,10 +364,11 @@ class RotatingBeam final : public ElementBlock {
     return k;
   }
 
-  /// From section forces at both ends, those of the part beyond upon the part before.
+  /// From section forces at the points, those of the part beyond upon the part before.
   static Vector12d end_forces(const double* reported) {
-    Vector12d force = Eigen::Map<const Vector12d>(reported);
-    force.head<6>() = -force.head<6>();
+    Vector12d force;
+    force.head<6>() = -Eigen::Map<const Eigen::Matrix<double, 6, 1>>(reported);
+    force.tail<6>() = Eigen::Map<const Eigen::Matrix<double, 6, 1>>(reported + 6 * (beam_point_count - 1));
     return force;
   }
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/beam_points.hpp"
 #include "solver/elements/beam_stiffness.hpp"
 #include "solver/elements/energy_parts.hpp"
 #include "solver/elements/geometric_stiffness.hpp"
@@ -161,7 +162,9 @@ class SlenderBlock final : public ElementBlock {
       const double* own = stresses.data() + static_cast<std::size_t>(element) * each;
       if constexpr (is_beam) {
         for (int part = 0; part < 4; ++part) {  // force and moment at the first end, then at the second
-          const Eigen::Vector3d global = axes(element).transpose() * Eigen::Map<const Eigen::Vector3d>(own + 3 * part);
+          const auto at = at_end({own, each}, stress_names().size(), part / 2);
+          const Eigen::Vector3d global =
+              axes(element).transpose() * Eigen::Map<const Eigen::Vector3d>(at.data() + 3 * (part % 2));
           for (int i = 0; i < 3; ++i) forces[dofs[3 * part + i]] += part < 2 ? -global[i] : global[i];
         }
       } else {
@@ -183,14 +186,14 @@ class SlenderBlock final : public ElementBlock {
   }
 
   std::span<const int> cells() const override { return cells_; }
-  int point_count() const override { return is_beam ? 2 : 1; }
+  int point_count() const override { return is_beam ? beam_point_count : 1; }
   std::span<const std::string_view> stress_names() const override {
     if constexpr (is_beam) return beam_force_names;
     return bar_forces;
   }
 
   /// Section forces, in the element's own axes, of the part with greater x upon the part with smaller x: N > 0 in
-  /// tension. Beams have them at both ends, bars once.
+  /// tension. Beams have them at both ends and in the middle, bars once.
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     std::array<int, size> dofs;
     double* target = out.data();
@@ -198,10 +201,14 @@ class SlenderBlock final : public ElementBlock {
       map_.dofs(element, dofs.data());
       const auto force = end_forces(element, u, dofs, state);
       if constexpr (is_beam) {
+        std::array<double, 12> ends;
+        double* own = ends.data();
         for (const int end : {0, 1}) {
           for (const int part : {0, 3})
-            target = write_local(element, force.data() + 6 * end + part, end == 0 ? -1.0 : 1.0, target);
+            own = write_local(element, force.data() + 6 * end + part, end == 0 ? -1.0 : 1.0, own);
         }
+        write_at_points(ends, {target, 6 * beam_point_count});
+        target += 6 * beam_point_count;
       } else {
         double axial = 0.0;
         for (int i = 0; i < Components; ++i) axial += axes(element)(0, i) * static_cast<double>(force[Components + i]);
@@ -363,9 +370,9 @@ class SlenderBlock final : public ElementBlock {
                     "the stiffness that stresses add is known of beams with a constant section alone whose centre of "
                     "torsion is the centroid");
       const auto section_forces = [](const double* f) { return SectionForces{f[0], f[1], f[2], f[3], f[4], f[5]}; };
-      Matrix k =
-          beam_geometric_stiffness(*member.section, moduli(*member.material, material_point(element, state)),
-                                   member.segment.length, shear_, {section_forces(forces), section_forces(forces + 6)});
+      Matrix k = beam_geometric_stiffness(
+          *member.section, moduli(*member.material, material_point(element, state)), member.segment.length, shear_,
+          {section_forces(forces), section_forces(forces + 6 * (beam_point_count - 1))});
       Matrix turn = Matrix::Zero();
       for (int i = 0; i < size; i += 3) turn.template block<3, 3>(i, i) = member.segment.axes;
       return turn.transpose() * k * turn;

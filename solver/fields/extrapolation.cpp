@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/beam_points.hpp"
 #include "solver/elements/quadrature.hpp"
 #include "solver/elements/reference_element.hpp"
 #include "solver/error.hpp"
@@ -75,6 +76,10 @@ class Smoothing {
       Eigen::MatrixXd matrix =
           gauss_to_nodes(type, is_surface ? plate_family(type) : stiffness_family(type, formulation));
       if (matrix.cols() == points) return matrix;
+    } else if (is_beam(formulation) && points == beam_point_count) {
+      Eigen::MatrixXd ends = Eigen::MatrixXd::Zero(nodes, points);
+      ends(0, 0) = ends(1, points - 1) = 1.0;
+      return ends;
     } else if (points == nodes) {
       return Eigen::MatrixXd::Identity(nodes, nodes);
     }

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/beam_points.hpp"
 #include "solver/elements/discrete_forces.hpp"
 #include "solver/elements/quadrature.hpp"
 #include "solver/error.hpp"
@@ -104,7 +105,7 @@ int point_count(const Model& model, int cell, Support support, bool skin) {
     return static_cast<int>(quadrature(type, stiffness_family(type, formulation)).size());
   }
   if (is_plate(formulation)) return static_cast<int>(quadrature(type, plate_family(type)).size());
-  return is_beam(formulation) ? 2 : 1;
+  return is_beam(formulation) ? beam_point_count : 1;
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/beam_points.hpp"
 #include "solver/elements/quadrature.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/reference_cell.hpp"
@@ -22,14 +23,18 @@ GaussScheme centre(CellType type) {
   return {{middle}, {reference_measure(type)}};
 }
 
-/// The values of a beam stand at its ends, the first one first.
+/// The values of discrete elements stand at their ends, the first one first, those of beams in the middle too.
 GaussScheme ends() { return {{{-1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}, {1.0, 1.0}}; }
+GaussScheme ends_and_middle() {
+  return {{{-1.0, 0.0, 0.0}, {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}, {1.0 / 3.0, 4.0 / 3.0, 1.0 / 3.0}};
+}
 
 }  // namespace
 
 std::optional<GaussScheme> gauss_scheme(CellType type, int points) {
   if (points == 1) return centre(type);
   if (corner_count(type) == 2 && points == 2) return ends();
+  if (type == CellType::seg2 && points == beam_point_count) return ends_and_middle();
   try {
     GaussScheme scheme;
     for (const QuadraturePoint& point : quadrature(type, fmt::format("FPG{}", points))) {

@@ -16,8 +16,8 @@ struct GaussScheme {
 };
 
 /// The scheme of R3.01.01 with that many points on that cell type, in its order of points, as elements have it; nothing
-/// if there is none. One point is the centre of any cell, two points of a line are its ends, where beams have their
-/// forces.
+/// if there is none. One point is the centre of any cell, two points of a line are its ends, and three of a SEG2 its
+/// ends and its middle, where beams have their forces.
 std::optional<GaussScheme> gauss_scheme(CellType type, int points);
 
 }  // namespace comma::solver
