@@ -178,12 +178,11 @@ double mean_between(const TabulatedFunction& function, double from, double to) {
 TabulatedFunction derivative(const TabulatedFunction& function) {
   const std::size_t last = function.x.size() - 1;
   if (last == 0) throw Error("out-of-function", "a function of one point has no derivative");
-  std::vector<double> slopes(last);
-  for (std::size_t i = 0; i < last; ++i)
-    slopes[i] = (function.y[i + 1] - function.y[i]) / (function.x[i + 1] - function.x[i]);
   TabulatedFunction result = function;
-  for (std::size_t i = 0; i <= last; ++i)
-    result.y[i] = 0.5 * (slopes[i == 0 ? 0 : i - 1] + slopes[std::min(i, last - 1)]);
+  for (std::size_t i = 0; i <= last; ++i) {
+    const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, last);
+    result.y[i] = (function.y[after] - function.y[before]) / (function.x[after] - function.x[before]);
+  }
   return result;
 }
 

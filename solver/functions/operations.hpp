@@ -50,8 +50,8 @@ TabulatedFunction integral(const TabulatedFunction& function, double at_first);
 TabulatedFunction simpson_integral(const TabulatedFunction& function, double at_first);
 /// The mean value from one abscissa to a later one, by the trapezoidal rule through the points between them.
 double mean_between(const TabulatedFunction& function, double from, double to);
-/// The mean of the slopes on both sides, that of the one side at the ends. Throws Error `out-of-function` for a single
-/// point.
+/// The slope between the points before and after (17.3), at the ends of the one side. Throws Error `out-of-function`
+/// for a single point.
 TabulatedFunction derivative(const TabulatedFunction& function);
 /// x(y), with parameter and result, scales and ends exchanged. Throws Error `out-of-function` when the ordinates
 /// neither rise nor fall strictly.
