@@ -275,7 +275,8 @@ solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh)
   zone.rule = contact_rule(keywords.text("INTEGRATION"));
   if (keywords.has("ORDRE_INT")) zone.rule_order = static_cast<int>(keywords.integer("ORDRE_INT"));
   zone.penalised = keywords.text("ALGO_CONT") == "PENALISATION";
-  if (zone.penalised && adapts_penalties(keywords)) zone.largest_depth = keywords.real("PENE_MAXI");
+  zone.adapts_penalty = zone.penalised && adapts_penalties(keywords);
+  if (zone.adapts_penalty && keywords.has("PENE_MAXI")) zone.largest_depth = keywords.real("PENE_MAXI");
   zone.augmentation = keywords.real(zone.penalised ? "COEF_PENA_CONT" : "COEF_CONT");
   zone.keeps_augmentation = keywords.text("ADAPTATION") == "NON";
   zone.initial = initial_contact(keywords.text("CONTACT_INIT"));
@@ -362,6 +363,7 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
   definition.smooth_normals = call.text("LISSAGE") == "OUI";
   set_geometry_update(call, definition);
   definition.has_friction = is_mixed && call.text("FROTTEMENT") == "COULOMB";
+  definition.settles_penalties = is_mixed && call.text("ALGO_RESO_CONT") == "NEWTON";
   definition.joint_iterations =
       is_mixed && call.text("ALGO_RESO_CONT") == "NEWTON" && call.text("ALGO_RESO_GEOM") == "NEWTON";
   if (call.has("NB_ITER_GEOM")) definition.controlled_updates = static_cast<int>(call.integer("NB_ITER_GEOM"));

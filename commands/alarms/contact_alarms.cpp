@@ -270,8 +270,10 @@ void warn_of_idle_coefficients(const Call& call, const solver::ContactDefinition
     };
     const std::string contact = "ALGO_CONT is '" + zones[k].text("ALGO_CONT") + "'";
     warn("COEF_CONT", !mixed.penalised && !mixed.local_average, contact, "ALGO_CONT='STANDARD'");
-    warn("COEF_PENA_CONT", mixed.penalised, contact, "ALGO_CONT='PENALISATION'");
-    warn("PENE_MAXI", mixed.penalised && mixed.largest_depth.has_value(), "no penalty of contact is adapted",
+    warn("COEF_PENA_CONT", mixed.penalised && !mixed.adapts_penalty,
+         mixed.adapts_penalty ? "each point has a penalty that its depth adapts" : contact,
+         mixed.adapts_penalty ? "ADAPTATION='NON'" : "ALGO_CONT='PENALISATION'");
+    warn("PENE_MAXI", mixed.adapts_penalty, "no penalty of contact is adapted",
          "ALGO_CONT='PENALISATION' and ADAPTATION='ADAPT_COEF'");
     if (!zones[k].has("COULOMB")) continue;
     const std::string friction = "ALGO_FROT is '" + zones[k].text("ALGO_FROT") + "'";

@@ -44,7 +44,11 @@ std::string how_to_follow(const solver::ContactDefinition& contact) {
 Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinition& contact,
                  const solver::Mesh& mesh) {
   const bool is_mixed = contact.formulation == solver::ContactFormulation::mixed;
-  const std::string penalty = is_mixed ? "COEF_PENA_CONT" : "E_N";
+  const auto number = static_cast<std::size_t>(doubt.zone);
+  const bool is_adapted = number < contact.zones.size() && contact.zones[number].mixed.adapts_penalty;
+  const std::string coefficient = is_mixed ? "COEF_PENA_CONT" : "E_N";
+  const std::string penalty = is_adapted ? "an adapted penalty (ADAPTATION)" : coefficient;
+  const std::string other = is_adapted ? "ADAPTATION='NON' and " + coefficient : coefficient;
   const std::string friction_penalty = is_mixed ? "COEF_PENA_FROT" : "E_T";
   const int zone = doubt.zone + 1;
   switch (doubt.kind) {
@@ -55,14 +59,14 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
                       "without contact: "
                       "contact forces come out too small by about that share",
                       penalty, doubt.penalty, zone, doubt.length, 100.0 * doubt.share),
-          fmt::format("take {} = {:.0e}, or an exact method ({})", penalty, doubt.wanted, exact_formulation(contact))};
+          fmt::format("take {} = {:.0e}, or an exact method ({})", other, doubt.wanted, exact_formulation(contact))};
     case solver::DoubtKind::deep_penalty:
       return {
           "soft-penalty",
           fmt::format(
               "with {} = {:.3g} the slave nodes of zone {} sink in by {:.3g}, {:.2g} times the size of the slave side",
               penalty, doubt.penalty, zone, doubt.length, doubt.share),
-          fmt::format("take {} = {:.0e}, or an exact method ({})", penalty, doubt.wanted, exact_formulation(contact))};
+          fmt::format("take {} = {:.0e}, or an exact method ({})", other, doubt.wanted, exact_formulation(contact))};
     case solver::DoubtKind::watched_overlap:
       return {"interpenetration",
               fmt::format(

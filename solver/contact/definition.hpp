@@ -44,8 +44,11 @@ struct MixedZone {
   bool keeps_augmentation = false;  ///< it is not lowered where no solution is found with it (ADAPTATION='NON')
   bool local_average = false;  ///< the mean gap of each patch of slave faces obeys Signorini's law (ALGO_CONT='LAC')
   bool penalised = false;      ///< the pressure is `augmentation` times the depth (ALGO_CONT='PENALISATION')
-  /// PENE_MAXI, a length: `augmentation` of a penalised zone is raised until no point is deeper.
-  std::optional<double> largest_depth;
+  /// In place of `augmentation` each point has a penalty that its depth adapts (ADAPTATION='ADAPT_COEF'; see
+  /// adapted_penalties.hpp).
+  bool adapts_penalty = false;
+  std::optional<double> largest_depth;  ///< PENE_MAXI, a length: the depth from which on a penalty is adapted; nothing:
+                                        ///< a share of the smallest master facet
   InitialContact initial = InitialContact::interpenetrating;  ///< CONTACT_INIT
   bool bilateral = false;           ///< GLISSIERE: a point that has closed does not open again
   double friction = 0.0;            ///< COULOMB
@@ -110,10 +113,13 @@ struct ContactDefinition {
   /// Updates that have long brought the geometry no nearer to rest end where it moves by less than this.
   double restless_tolerance = 0.0;
   double joint_geometry_tolerance = 1e-6;  ///< RESI_GEOM where iterations are joint
-  bool joint_iterations = false;           ///< one iteration of Newton's method updates statuses, geometry and bodies
-                                           ///< (ALGO_RESO_CONT and ALGO_RESO_GEOM 'NEWTON')
-  int active_set_factor = 30;              ///< ITER_CONT_MULT: at most this many active-set iterations per slave node
-  bool stop_on_interpenetration = false;   ///< STOP_INTERP: too deep a node of a watched zone is an error
+  /// Penalties that depths adapt are so until they stay, for each geometry (ALGO_RESO_CONT='NEWTON'); otherwise once a
+  /// geometry.
+  bool settles_penalties = false;
+  bool joint_iterations = false;          ///< one iteration of Newton's method updates statuses, geometry and bodies
+                                          ///< (ALGO_RESO_CONT and ALGO_RESO_GEOM 'NEWTON')
+  int active_set_factor = 30;             ///< ITER_CONT_MULT: at most this many active-set iterations per slave node
+  bool stop_on_interpenetration = false;  ///< STOP_INTERP: too deep a node of a watched zone is an error
   bool has_friction = false;    ///< FROTTEMENT='COULOMB', though all coefficients be zero: fields have its components
   bool smooth_normals = false;  ///< LISSAGE: normals at the nodes are averaged and interpolated between them
   double gradient_tolerance = 1e-8;  ///< RESI_ABSO, for ContactAlgorithm::projected_gradient, a length

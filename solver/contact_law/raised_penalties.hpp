@@ -18,8 +18,8 @@ struct Excess {
                                    ///< where that is the softer; empty: 1
 };
 
-/// The penalties of the zones of a contact are raised by one factor a zone (U4.44.11: ADAPTATION='ADAPT_COEF' with
-/// PENE_MAXI and GLIS_MAXI; U4.34.03: ACTION='ADAPT_COEF_PENA' of the event INTERPENETRATION), and never lowered.
+/// The penalties of the zones of a contact are raised by one factor a zone (U4.34.03: ACTION='ADAPT_COEF_PENA' of the
+/// event INTERPENETRATION; U4.44.11: those of friction by ADAPTATION='ADAPT_COEF' with GLIS_MAXI), and never lowered.
 class RaisedPenalties {
  public:
   /// Beyond, rounding of the gaps makes pressures.
@@ -27,12 +27,10 @@ class RaisedPenalties {
 
   explicit RaisedPenalties(std::size_t zones = 0) : contact_(zones, 1.0), friction_(zones, 1.0) {}
 
-  /// From now on all zones allow this depth (a length) in place of their own, and no factor goes beyond `most`.
+  /// From now on all zones allow this depth (a length), and no factor goes beyond `most`.
   void limit_depth(double depth, double most);
-  /// How deep points of a zone may go; nothing where nothing limits them.
-  std::optional<double> allowed_depth(const MixedZone& zone) const {
-    return depth_limit_ ? depth_limit_ : zone.largest_depth;
-  }
+  /// How deep points may go; nothing where nothing limits them.
+  std::optional<double> allowed_depth() const { return depth_limit_; }
 
   /// Whether any is not as it was given.
   bool are_raised() const;

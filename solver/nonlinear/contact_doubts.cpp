@@ -107,17 +107,16 @@ void note_depth(const SolvedContact& contact, const ContactResponse& response, i
   const ContactZone& definition = contact.definition.zones[static_cast<std::size_t>(zone)];
   double depth = 0.0;
   double reach = 0.0;
+  double penalty = response.penalties.contact_penalty(definition.mixed, zone);
   for (std::size_t p = 0; p < contact.points().size(); ++p) {
     const CondensedPoint& point = contact.problem.points[p];
     if (contact.points()[p].zone != zone || point.rows == 0 || !contact.is_closed(p) || contact.is_free_of_force(p))
       continue;
+    if (-contact.jumps[point.first_row] > depth) penalty = point.law.augmentation;
     depth = std::max(depth, -contact.jumps[point.first_row]);
     reach = std::max(reach, -without[point.first_row]);
   }
-  ContactDoubt doubt{.kind = DoubtKind::soft_penalty,
-                     .zone = zone,
-                     .length = depth,
-                     .penalty = response.penalties.contact_penalty(definition.mixed, zone)};
+  ContactDoubt doubt{.kind = DoubtKind::soft_penalty, .zone = zone, .length = depth, .penalty = penalty};
   // What nothing but contact holds has no depth to compare with, and its forces do not depend on the penalty; nor has
   // it where the stresses of large displacements make its stiffness indefinite.
   if (contact.problem.springs.empty() && !contact.problem.indefinite)

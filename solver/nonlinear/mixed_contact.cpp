@@ -71,7 +71,8 @@ void MixedContact::face(Positions positions, double time, double margin) {
   rows_.face(positions, time, margin);
   ++counters_.pairings;
   problem_.points = rows_.build(reference_);
-  for (std::size_t p = 0; p < problem_.points.size(); ++p) apply_penalties(points()[p].zone, problem_.points[p]);
+  adapted_.face(definition_, points(), mesh_);
+  apply_penalties();
   share_friction();
   if (!started_) start_statuses(jumps(reference_));
   started_ = true;
@@ -97,6 +98,8 @@ void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
   reference_ = faced_at_ = u;
   step_begins_ = true;
   augmentation_share_ = 1.0;
+  adapted_.start_step(closed_count() > 0);
+  apply_penalties();
   problem_.expected = state_.multipliers + duration * rates_;
   start_ = state_.multipliers;
   rows_.count_slips(problem_.points, reference_);
@@ -168,7 +171,7 @@ std::vector<ZoneMemory> MixedContact::zone_definitions() const {
     std::ranges::sort(slave_cells);
     zones.push_back({mixed.bilateral,
                      {mixed.penalised ? mixed.augmentation : 0.0,
-                      mixed.friction_penalised ? mixed.friction_penalty : 0.0, mixed.largest_depth ? 1.0 : 0.0,
+                      mixed.friction_penalised ? mixed.friction_penalty : 0.0, mixed.adapts_penalty ? 1.0 : 0.0,
                       mixed.largest_slip ? 1.0 : 0.0, definition_.formulation == ContactFormulation::mixed ? 1.0 : 0.0},
                      std::move(slave_cells)});
   }
@@ -407,7 +410,7 @@ bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
     const MixedZone& mixed = definition_.zones[zone].mixed;
     const CondensedPoint& point = problem_.points[p];
     if (point.rows == 0 || is_free_of_force(points()[p], problem_.points[p])) continue;
-    const std::optional<double> deepest = penalties_.allowed_depth(mixed);
+    const std::optional<double> deepest = penalties_.allowed_depth();
     const double given = std::min(mixed.penalised ? mixed.augmentation : mixed.friction_penalty,
                                   mixed.friction_penalised ? mixed.friction_penalty : mixed.augmentation);
     excess.softness[zone] =
@@ -417,12 +420,42 @@ bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
       excess.slip[zone] = std::max(excess.slip[zone], slip_of(point, now) / *mixed.largest_slip);
   }
   if (!penalties_.raise(excess)) return false;
-  for (std::size_t p = 0; p < points().size(); ++p) apply_penalties(points()[p].zone, problem_.points[p]);
+  apply_penalties();
   return true;
 }
 
-void MixedContact::apply_penalties(int zone, CondensedPoint& point) const {
-  penalties_.apply(definition_.zones[static_cast<std::size_t>(zone)].mixed, zone, point);
+/// A depth that an event of the step limits stands for all others.
+bool MixedContact::adapts(std::size_t zone) const {
+  return definition_.zones[zone].mixed.adapts_penalty && !penalties_.allowed_depth();
+}
+
+bool MixedContact::adapt_penalties(const Eigen::VectorXd& u, bool settles) {
+  std::vector<char> zones;
+  for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) zones.push_back(adapts(zone) ? 1 : 0);
+  if (std::ranges::find(zones, 1) == zones.end()) return false;
+  const Eigen::VectorXd now = jumps(u);
+  const auto depths = [&](const Eigen::VectorXd& gaps) {
+    std::vector<double> result(points().size(), -std::numeric_limits<double>::infinity());
+    for (std::size_t p = 0; p < points().size(); ++p)
+      if (problem_.points[p].rows > 0 && !is_free_of_force(points()[p], problem_.points[p]))
+        result[p] = -gaps[problem_.points[p].first_row];
+    return result;
+  };
+  const std::vector<double> present = depths(now);
+  const bool is_deep = adapted_.is_too_deep(zones, present);
+  // What contact alone holds would lie infinitely deep.
+  if (is_deep && !began_adapted() && tangent_.springs().empty()) adapted_.note_depths(depths(now - pushed_by(forces_)));
+  if (!adapted_.adapt(zones, present, is_deep ? tangent_.largest_term(u) : 0.0, !settles)) return false;
+  apply_penalties();
+  return true;
+}
+
+void MixedContact::apply_penalties() {
+  for (std::size_t p = 0; p < points().size(); ++p) {
+    const auto zone = static_cast<std::size_t>(points()[p].zone);
+    penalties_.apply(definition_.zones[zone].mixed, points()[p].zone, problem_.points[p]);
+    if (adapts(zone)) problem_.points[p].law.augmentation = adapted_.penalty(p);
+  }
 }
 
 bool MixedContact::has_penalties() const {

@@ -10,6 +10,7 @@
 
 #include "solver/constraints/elimination.hpp"
 #include "solver/contact/doubts.hpp"
+#include "solver/contact_law/adapted_penalties.hpp"
 #include "solver/contact_law/condensed_contact.hpp"
 #include "solver/contact_law/contact_memory.hpp"
 #include "solver/contact_law/contact_rows.hpp"
@@ -44,8 +45,8 @@ class MixedContact {
   void accept_step(double duration);
   /// Pressures, statuses and penalties as they are before a step, and back to them when it fails; points must be faced
   /// anew then.
-  void remember() { remembered_ = {state_, penalties_, started_, resumed_, secants_}; }
-  void restore() { std::tie(state_, penalties_, started_, resumed_, secants_) = remembered_; }
+  void remember() { remembered_ = {state_, penalties_, adapted_, started_, resumed_, secants_}; }
+  void restore() { std::tie(state_, penalties_, adapted_, started_, resumed_, secants_) = remembered_; }
   /// What a later computation must know of a step that has been accepted; null where its fields say all.
   std::shared_ptr<const ContactMemory> memory() const;
   /// Starts from displacements u, and goes on from what an earlier computation remembers (may be null); before any
@@ -101,10 +102,14 @@ class MixedContact {
   double penetration(const Eigen::VectorXd& u, bool of_penalties = false) const;
   const std::vector<ContactPoint>& points() const { return rows_.points(); }
 
-  /// Raises the penalty of zones where points lie deeper at u than allowed (MixedZone::largest_depth), or points that
-  /// stick slip by more (MixedZone::largest_slip); whether there were any. Throws Error `no-convergence` where that
-  /// does not help.
+  /// Raises the penalty of zones where points lie deeper at u than allowed (`limit_depth`), or points that stick slip
+  /// by more (MixedZone::largest_slip); whether there were any. Throws Error `no-convergence` where that does not help.
   bool stiffen_penalties(const Eigen::VectorXd& u);
+  /// Adapts the penalties of points to their depths at u (MixedZone::adapts_penalty). `settles`: until they stay, and
+  /// otherwise one of several times. Whether any changed.
+  bool adapt_penalties(const Eigen::VectorXd& u, bool settles);
+  /// See AdaptedPenalties.
+  bool began_adapted() const { return adapted_.began_adapted(); }
 
   /// Of a step that has converged at u (see contact_doubts.hpp). Costs a solve where there are penalties.
   void note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts);
@@ -157,7 +162,8 @@ class MixedContact {
   RememberedPoint remembered(std::size_t p) const;
   std::vector<char> held_points();
   void close_nearest(const Eigen::VectorXd& jumps);
-  void apply_penalties(int zone, CondensedPoint& point) const;
+  void apply_penalties();
+  bool adapts(std::size_t zone) const;
   void share_friction();
   void add_natural_augmentation();
   double augmentation_of(const ContactZone& zone) const;
@@ -187,6 +193,7 @@ class MixedContact {
 
   ContactRows rows_;
   RaisedPenalties penalties_;
+  AdaptedPenalties adapted_;
   std::shared_ptr<const ContactMemory> resumed_;  ///< null once statuses have started from it
   ActiveSetMemory memory_;
   NearInverse near_inverse_;
@@ -198,7 +205,8 @@ class MixedContact {
   /// Of what is given, between nodes: lowered in a step where nothing else leads to a solution.
   double augmentation_share_ = 1.0;
   bool rubs_by_shears_ = false;  ///< see CondensedSolution::by_shears
-  std::tuple<CondensedState, RaisedPenalties, bool, std::shared_ptr<const ContactMemory>, Secants> remembered_;
+  std::tuple<CondensedState, RaisedPenalties, AdaptedPenalties, bool, std::shared_ptr<const ContactMemory>, Secants>
+      remembered_;
   Iterations iterations_ = Iterations::settled;
   Secants secants_;
   std::optional<Geometry> next_geometry_;

@@ -94,6 +94,8 @@ class StaticRun {
   // The solution of one step (step_solution.cpp).
   int solve_step(double time);
   /// A linear step: what has flowed goes on as it did. What the law makes of it counts from its end on.
+  bool adapt_penalties_once();
+  bool penalties_change(double time, int adaptations);
   int solve_extrapolated(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset);
   /// What the intensity multiplies, and what it does not.
   DrivenLoads driven_loads(double time);

@@ -1,6 +1,9 @@
 // The part of StaticRun that solves one step: loads, contact as the geometry becomes, balance.
 #include <algorithm>
 
+#include <fmt/format.h>
+
+#include "solver/error.hpp"
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/geometry_updates.hpp"
 #include "solver/nonlinear/known_displacements.hpp"
@@ -11,6 +14,9 @@ namespace comma::solver {
 namespace {
 
 using Eigen::Vector3d;
+
+/// Those that settle do so geometrically, most of them in ten; others go round in circles.
+constexpr int most_adaptations = 100;
 
 }  // namespace
 
@@ -51,12 +57,10 @@ int StaticRun::solve_step(double time) {
       const auto balance = [&] {
         return newton_.solve(time, external, offset, now_.conditions, earlier, active_set_limit(), now_.state);
       };
+      if (update > 0) adapt_penalties_once();
       iterations = earlier + balance();
-      while (mixed_ && mixed_->stiffen_penalties(now_.state.u)) {
-        if (observer_)
-          observer_(event_of_step(time, "contact is deeper, or slips by more, than allowed: its penalty is raised"));
-        iterations += balance();
-      }
+      if (update == 0 && mixed_ && mixed_->began_adapted() && adapt_penalties_once()) iterations += balance();
+      for (int adaptations = 0; penalties_change(time, adaptations); ++adaptations) iterations += balance();
     }
     const bool at_rest = !geometry || geometry->settled(now_.reference, now_.state.u);
     const bool settled = at_rest || (mixed_ && mixed_->is_joint());
@@ -68,6 +72,25 @@ int StaticRun::solve_step(double time) {
     geometry->note_cycle(now_.pairs);
     geometry->require_more(time);
   }
+}
+
+/// Where penalties need not settle.
+bool StaticRun::adapt_penalties_once() {
+  return mixed_ && !problem_.contact->settles_penalties && mixed_->adapt_penalties(now_.state.u, false);
+}
+
+bool StaticRun::penalties_change(double time, int adaptations) {
+  if (!mixed_) return false;
+  if (mixed_->stiffen_penalties(now_.state.u)) {
+    if (observer_)
+      observer_(event_of_step(time, "contact is deeper, or slips by more, than allowed: its penalty is raised"));
+    return true;
+  }
+  if (!problem_.contact->settles_penalties || !mixed_->adapt_penalties(now_.state.u, true)) return false;
+  if (adaptations < most_adaptations) return true;
+  throw Error("no-convergence",
+              fmt::format("penalties of contact that depths adapt have not settled after {} times", most_adaptations),
+              "allow another depth (PENE_MAXI), or give the penalty (COEF_PENA_CONT with ADAPTATION='NON')");
 }
 
 int StaticRun::solve_extrapolated(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset) {

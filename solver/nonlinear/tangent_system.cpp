@@ -125,6 +125,14 @@ Eigen::VectorXd TangentSystem::reduced_forces(const Eigen::VectorXd& u, const Ei
   return elimination_.transformation().transpose() * forces;
 }
 
+double TangentSystem::largest_term(const Eigen::VectorXd& u) const {
+  const SymmetricMatrix whole = stiffness(u, TangentKind::tangent);
+  double largest = 0.0;
+  for (int column = 0; column < whole.outerSize(); ++column)
+    for (SymmetricMatrix::InnerIterator it(whole, column); it; ++it) largest = std::max(largest, std::abs(it.value()));
+  return largest;
+}
+
 SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u, TangentKind kind) const {
   const Stopwatch stopwatch(counters_.assembling);
   SymmetricMatrix reduced = elimination_.reduce(stiffness(u, kind));

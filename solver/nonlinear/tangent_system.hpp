@@ -101,6 +101,8 @@ class TangentSystem {
   /// Whether unknowns are of several kinds, so that one size does not suit all.
   bool is_saddle() const { return is_saddle_; }
 
+  /// The largest |K_ij| of all unknowns at u, whatever is held.
+  double largest_term(const Eigen::VectorXd& u) const;
   /// The sum of |K_ij| over each row of the last factorised tangent (reduced_size).
   const Eigen::VectorXd& row_sizes() const { return row_sizes_; }
   /// Of each unknown the largest of its kind (translations, rotations, others) in its body: what its rounding is a

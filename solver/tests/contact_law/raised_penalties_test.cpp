@@ -12,7 +12,6 @@ MixedZone soft_zone() {
   zone.penalised = zone.friction_penalised = true;
   zone.augmentation = 100.0;
   zone.friction_penalty = 5.0;
-  zone.largest_depth = 1e-3;
   return zone;
 }
 
@@ -54,14 +53,13 @@ TEST_CASE("A computation that goes on takes penalties as they were raised, and i
   CHECK_FALSE(after.are_raised());
   after.go_on_from(before, 0, 0);
   CHECK(penalties_of(after, 0) == penalties_of(before, 0));
-  CHECK(after.allowed_depth(soft_zone()) == 0.5);
+  CHECK(after.allowed_depth() == 0.5);
 }
 
-TEST_CASE("A depth for all zones replaces their own, and a factor that would be too large is an error") {
+TEST_CASE("A factor that would be too large is an error") {
   RaisedPenalties raised(1);
-  CHECK(raised.allowed_depth(soft_zone()) == 1e-3);
+  CHECK_FALSE(raised.allowed_depth());
   raised.limit_depth(0.5, 10.0);
-  CHECK(raised.allowed_depth(soft_zone()) == 0.5);
   CHECK(raised.raise({{9.0}, {0.0}}));
   CHECK_THROWS_AS(raised.raise({{9.0}, {0.0}}), Error);
 }
