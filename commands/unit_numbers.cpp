@@ -10,10 +10,12 @@ using interpreter::Call;
 using interpreter::DiagnosticError;
 using interpreter::Value;
 
-Value UnitNumbers::number_of(Call& call) {
+Value UnitNumbers::number_of(Call& call, bool misses_calls) {
   const bool frees = call.text("ACTION") == "LIBERER";
   const bool names_one = call.given("UNITE");
-  const int unit = names_one ? static_cast<int>(call.integer("UNITE")) : frees ? unit_of_name(call) : free_unit(call);
+  const int unit = names_one ? static_cast<int>(call.integer("UNITE"))
+                   : frees   ? unit_of_name(call, misses_calls)
+                             : free_unit(call);
   if (!names_one)
     call.items.push_back({"UNITE", Value(static_cast<std::int64_t>(unit)), {}, call.span, call.span, true});
   if (frees) {
@@ -24,10 +26,11 @@ Value UnitNumbers::number_of(Call& call) {
   return Value(static_cast<std::int64_t>(unit));
 }
 
-int UnitNumbers::unit_of_name(const Call& call) const {
+int UnitNumbers::unit_of_name(const Call& call, bool misses_calls) const {
   const std::string& name = call.text("FICHIER");
   const auto found = std::ranges::find_if(names_, [&](const auto& entry) { return entry.second == name; });
   if (found != names_.end()) return found->first;
+  if (misses_calls) return free_unit(call);
   throw DiagnosticError("unknown-unit", fmt::format("DEFI_FICHIER: no unit stands for the file '{}'", name),
                         call.span_of("FICHIER"), "name it as ACTION='ASSOCIER' does, or give UNITE");
 }
