@@ -17,8 +17,8 @@ class UnitNumbers {
 
   /// The number of the unit that a call of DEFI_FICHIER is about. A call without UNITE gets it: the highest one up to
   /// 99 that is free, or where it sets a file free the one that the file has. Nothing is returned for ACTION='LIBERER'.
-  /// `misses_calls`: some could not be read, so that a file may have a number that nobody knows. Throws DiagnosticError
-  /// `unknown-unit` where that file has none, `no-unit` where all are taken.
+  /// `misses_calls`: some could not be read or are wrong, so that a file may have a number that nobody knows. Throws
+  /// DiagnosticError `unknown-unit` where that file has none, `no-unit` where all are taken.
   interpreter::Value number_of(interpreter::Call& call, bool misses_calls = false);
 
  private:

@@ -97,8 +97,9 @@ StudyRun::StudyRun(Study study, Verbosity verbosity, interpreter::SessionOptions
   });
   session_.act_at_once("INCLUDE", [this](const interpreter::Call& call) { include(call); });
   session_.act_at_once("POURSUITE", [this](const interpreter::Call& call) { go_on(call); });
-  session_.give_at_once("DEFI_FICHIER",
-                        [this](interpreter::Call& call) { return units_.number_of(call, unreadable_); });
+  session_.give_at_once("DEFI_FICHIER", [this](interpreter::Call& call) {
+    return units_.number_of(call, unreadable_ || diagnostics_.has_errors());
+  });
   if (!options.check_only) session_.look_ahead_with([this] { look_ahead(); });
   session_.set_output([this](std::string_view text) {
     if (!unreadable_) context_.console.print(text);
