@@ -120,8 +120,8 @@ ContactStatus MixedContact::take_secant(std::size_t p, const Eigen::VectorXd& ju
     const Vector2d slip = live_part(point.law, jump).tail<2>();
     shear = secant_shear(point.law, pressure, slip, relief);
     if (shear.status == ContactStatus::sliding && relief > 0.0)
-      secants_.reliefs.push_back(
-          {p, relief * shear.value.norm() / slip.norm() * point.weight, slip.normalized(), shear.value.norm()});
+      secants_.reliefs.push_back({p, relief * point.weight * shear.value.norm() / slip.norm(), slip.normalized(),
+                                  point.weight * shear.value.norm()});
   }
   point.law.linear_shear = shear.linear;
   const Vector3d traction(pressure, -shear.value[0], -shear.value[1]);
