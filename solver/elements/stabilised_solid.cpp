@@ -141,16 +141,21 @@ class StabilisedElastic final : public Stabilised<ContinuumBlock<3, 8, false>> {
   Matrix6d law_of(int element, const VariableState& state) const {
     return *Behaviour(*this, element, 0, coordinates(element), state).law;
   }
-  Hourglass hourglass(int element, const Eigen::VectorXd&, const VariableState& state) const override {
-    return {coordinates(element), Hourglass::Projection::bending, poisson_of(law_of(element, state))};
+  Hourglass hourglass(int element, const Matrix6d& law) const {
+    return {coordinates(element), Hourglass::Projection::bending, poisson_of(law)};
   }
-  Hourglass::Stiffness additional_stiffness(int element, const Eigen::VectorXd& u,
+  Hourglass hourglass(int element, const Eigen::VectorXd&, const VariableState& state) const override {
+    return hourglass(element, law_of(element, state));
+  }
+  Hourglass::Stiffness additional_stiffness(int element, const Eigen::VectorXd&,
                                             const VariableState& state) const override {
-    return hourglass(element, u, state).stiffness(law_of(element, state));
+    const Matrix6d law = law_of(element, state);
+    return hourglass(element, law).stiffness(law);
   }
   Stresses pattern_stresses(int element, const Eigen::VectorXd& u, const VariableState& state) const override {
-    const Hourglass cell = hourglass(element, u, state);
-    return cell.stresses(law_of(element, state), cell.amplitudes(displacements(element, u)));
+    const Matrix6d law = law_of(element, state);
+    const Hourglass cell = hourglass(element, law);
+    return cell.stresses(law, cell.amplitudes(displacements(element, u)));
   }
   Hourglass::Places additional_forces(int element, const Eigen::VectorXd& u,
                                       const VariableState& state) const override {
