@@ -137,12 +137,6 @@ ContactLaw CondensedEquations::law_of(std::size_t p) const {
   return law;
 }
 
-Vector3d CondensedEquations::jump_at(const CondensedPoint& point) const {
-  Vector3d value = Vector3d::Zero();
-  for (int c = 0; c < point.rows; ++c) value[c] = jumps_[point.first_row + c];
-  return value;
-}
-
 ContactLawValue CondensedEquations::law_at(std::size_t p) const {
   const CondensedPoint& point = problem_.points[p];
   return contact_law(law_of(p), state_.statuses[p], multiplier_at(point), jump_at(point));

@@ -24,6 +24,12 @@ Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& st
   return value;
 }
 
+Vector3d jump_at(const CondensedPoint& point, const Eigen::VectorXd& jumps) {
+  Vector3d value = Vector3d::Zero();
+  value.head(point.rows) = jumps.segment(point.first_row, point.rows);
+  return value;
+}
+
 Eigen::MatrixXd resisting_rows(const CondensedPoint& point) {
   const bool rubs = point.law.friction > 0.0, has_dead = point.rows == 3 && !point.law.dead.isZero();
   const int count = !rubs ? 1 : has_dead ? 2 : point.rows;
@@ -34,9 +40,7 @@ Eigen::MatrixXd resisting_rows(const CondensedPoint& point) {
 
 double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps) {
   if (point.rows < 2) return 0.0;
-  Vector3d jump = Vector3d::Zero();
-  jump.head(point.rows) = jumps.segment(point.first_row, point.rows);
-  return live_part(point.law, jump).tail<2>().norm();
+  return live_part(point.law, jump_at(point, jumps)).tail<2>().norm();
 }
 
 std::vector<char> shared_multipliers(const CondensedProblem& problem) {

@@ -44,12 +44,12 @@ void MixedContact::iterate(Iterations iterations) {
 }
 
 int MixedContact::linearise(const Eigen::VectorXd& u, double time) {
-  return iterations_ == Iterations::secant ? linearise_secants(u) : face_and_linearise(u, time);
+  return is_secant() ? linearise_secants(u) : face_and_linearise(u, time);
 }
 
 bool MixedContact::may_end(int changes) const {
   if (iterations_ == Iterations::joint) return changes == 0 && geometry_change_ <= definition_.joint_geometry_tolerance;
-  if (iterations_ == Iterations::settled) return true;
+  if (!is_secant()) return true;
   for (std::size_t p = 0; p < points().size(); ++p)
     if (state_.statuses[p] != ContactStatus::open && problem_.points[p].law.friction > 0.0 && secants_.rubs[p] == 0)
       return false;
@@ -84,7 +84,6 @@ int MixedContact::linearise_secants(const Eigen::VectorXd& u) {
   const bool accelerated = secants_.last_residual < accelerated_below;
   ++secants_.linearisations;
   secants_.reliefs.clear();
-  forces_.setZero();
   state_.multipliers.setZero();
   int changes = 0;
   for (std::size_t p = 0; p < points().size(); ++p) {
@@ -93,6 +92,7 @@ int MixedContact::linearise_secants(const Eigen::VectorXd& u) {
     changes += status != state_.statuses[p];
     state_.statuses[p] = status;
   }
+  forces_ = multiplier_forces(problem_, state_, rows_.full().rows());
   Eigen::VectorXd shears = forces_;
   for (const CondensedPoint& point : problem_.points)
     if (point.rows > 0) shears[point.first_row] = 0.0;
@@ -105,8 +105,7 @@ int MixedContact::linearise_secants(const Eigen::VectorXd& u) {
 ContactStatus MixedContact::take_secant(std::size_t p, const Eigen::VectorXd& jumps, bool accelerated) {
   CondensedPoint& point = problem_.points[p];
   point.law.linear_shear.reset();
-  Vector3d jump = Vector3d::Zero();
-  for (int c = 0; c < point.rows; ++c) jump[c] = jumps[point.first_row + c];
+  const Vector3d jump = jump_at(point, jumps);
   const double pressure = -point.law.penalty() * jump[0];
   const bool is_closed = pressure > 0.0;
   const bool counts_from_start = secants_.linearisations <= 2;
@@ -124,11 +123,9 @@ ContactStatus MixedContact::take_secant(std::size_t p, const Eigen::VectorXd& ju
                                   point.weight * shear.value.norm()});
   }
   point.law.linear_shear = shear.linear;
-  const Vector3d traction(pressure, -shear.value[0], -shear.value[1]);
-  for (int c = 0; c < point.rows; ++c) forces_[point.first_row + c] = point.weight * traction[c];
-  if (point.node_count == 1)
-    for (int c = 0; c < point.rows; ++c)
-      state_.multipliers[point.nodes[0] * problem_.components + c] = c == 0 ? pressure : shear.value[c - 1];
+  const Vector3d multiplier(pressure, shear.value[0], shear.value[1]);
+  state_.multipliers.segment(Eigen::Index{point.nodes[0]} * problem_.components, point.rows) =
+      multiplier.head(point.rows);
   return shear.status;
 }
 
@@ -157,8 +154,7 @@ void MixedContact::note_solved(const Eigen::VectorXd& before, const Eigen::Vecto
   const Eigen::VectorXd moved = jumps(after) - jumps(before);
   for (const Secants::Relief& relief : secants_.reliefs) {
     const CondensedPoint& point = problem_.points[relief.point];
-    double along = 0.0;
-    for (int c = 1; c < point.rows; ++c) along += relief.along[c - 1] * moved[point.first_row + c];
+    const double along = relief.along.dot(jump_at(point, moved).tail<2>());
     std::map<int, double> own;
     for (int c = 1; c < point.rows; ++c)
       for (RowMatrix::InnerIterator it(rows_.full(), point.first_row + c); it; ++it)
@@ -177,7 +173,7 @@ Eigen::VectorXd MixedContact::forces_left_out() const {
 }
 
 double MixedContact::held_imbalance() const {
-  if (iterations_ != Iterations::secant) return 0.0;
+  if (!is_secant()) return 0.0;
   Eigen::VectorXd left = rows_.full().transpose() * forces_ - secants_.solved;
   for (const int dof : elimination_.kept()) left[dof] = 0.0;
   return largest_component(left);

@@ -87,11 +87,11 @@ void MixedContact::face(Positions positions, double time, double margin) {
 
 void MixedContact::accept_step(double duration) {
   rates_ = (state_.multipliers - start_) / duration;
-  if (iterations_ == Iterations::secant) carry_contact();
+  if (is_secant()) carry_contact();
 }
 
 void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
-  secants_.predicts = iterations_ == Iterations::secant;
+  secants_.predicts = is_secant();
   secants_.linearisations = 0;
   next_geometry_.reset();
   if (secants_.predicts && started_) begin_secants();
@@ -364,7 +364,7 @@ bool MixedContact::adapts(std::size_t zone) const {
   return definition_.zones[zone].mixed.adapts_penalty && !penalties_.allowed_depth();
 }
 
-bool MixedContact::adapt_penalties(const Eigen::VectorXd& u, bool settles) {
+bool MixedContact::adapt_penalties(const Eigen::VectorXd& u) {
   std::vector<char> zones;
   for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) zones.push_back(adapts(zone) ? 1 : 0);
   if (std::ranges::find(zones, 1) == zones.end()) return false;
@@ -380,7 +380,8 @@ bool MixedContact::adapt_penalties(const Eigen::VectorXd& u, bool settles) {
   const bool is_deep = adapted_.is_too_deep(zones, present);
   // What contact alone holds would lie infinitely deep.
   if (is_deep && !began_adapted() && tangent_.springs().empty()) adapted_.note_depths(depths(now - pushed_by(forces_)));
-  if (!adapted_.adapt(zones, present, is_deep ? tangent_.largest_term(u) : 0.0, !settles)) return false;
+  if (!adapted_.adapt(zones, present, is_deep ? tangent_.largest_term(u) : 0.0, !definition_.settles_penalties))
+    return false;
   apply_penalties();
   return true;
 }

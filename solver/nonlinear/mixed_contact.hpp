@@ -105,9 +105,8 @@ class MixedContact {
   /// Raises the penalty of zones where points lie deeper at u than allowed (`limit_depth`), or points that stick slip
   /// by more (MixedZone::largest_slip); whether there were any. Throws Error `no-convergence` where that does not help.
   bool stiffen_penalties(const Eigen::VectorXd& u);
-  /// Adapts the penalties of points to their depths at u (MixedZone::adapts_penalty). `settles`: until they stay, and
-  /// otherwise one of several times. Whether any changed.
-  bool adapt_penalties(const Eigen::VectorXd& u, bool settles);
+  /// Adapts the penalties of points to their depths at u (MixedZone::adapts_penalty), once. Whether any changed.
+  bool adapt_penalties(const Eigen::VectorXd& u);
   /// See AdaptedPenalties.
   bool began_adapted() const { return adapted_.began_adapted(); }
 

@@ -93,9 +93,11 @@ class StaticRun {
 
   // The solution of one step (step_solution.cpp).
   int solve_step(double time);
-  /// A linear step: what has flowed goes on as it did. What the law makes of it counts from its end on.
+  /// Of contact, where they need not settle; whether any changed.
   bool adapt_penalties_once();
+  /// Whether those of contact are others now, which have been adapted so often, and balance is to be found again.
   bool penalties_change(double time, int adaptations);
+  /// A linear step: what has flowed goes on as it did. What the law makes of it counts from its end on.
   int solve_extrapolated(double time, const Eigen::VectorXd& external, const Eigen::VectorXd& offset);
   /// What the intensity multiplies, and what it does not.
   DrivenLoads driven_loads(double time);
