@@ -18,8 +18,9 @@ class ZonePairing {
       : zone_(definition.zones[static_cast<std::size_t>(index)]),
         index_(index),
         mesh_(mesh),
-        is_straight_(definition.formulation == ContactFormulation::discrete && zone_.resolved &&
-                     has_straight_faces(mesh, zone_)),
+        takes_corners_(definition.formulation == ContactFormulation::discrete && zone_.resolved &&
+                       has_straight_faces(mesh, zone_)),
+        is_straight_(takes_corners_ && has_tied_edges(zone_)),
         straight_(is_straight_ ? straight_positions(mesh, zone_, positions) : std::vector<Vector3d>()),
         positions_(is_straight_ ? Positions(straight_) : positions),
         time_(time),
@@ -42,18 +43,27 @@ class ZonePairing {
       result.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
       result.facet = hit->facet;
       result.weights = hit->projection.weights;
-      if (is_straight_) take_corners(mesh_.cell_types[static_cast<std::size_t>(hit->facet)], result.weights);
       result.foot = hit->projection.foot;
       result.kept = hit->kept;
       result.normal = search_.normal(*hit, outward_at(slave).value_or(Vector3d::Zero()));
       result.thickness =
           thickness_at(zone_, at, result.foot, time_) + half_thickness(zone_, mesh_, hit->facet, result.weights);
       if (const auto size = slave_sizes_.find(slave); size != slave_sizes_.end()) result.thickness += size->second;
+      if (takes_corners_) bear_on_corners(result);
     }
     return result;
   }
 
  private:
+  /// The corners of the facet alone bear; what a curved one rises above them counts as thickness.
+  void bear_on_corners(ContactPair& pair) const {
+    take_corners(mesh_.cell_types[static_cast<std::size_t>(pair.facet)], pair.weights);
+    const auto nodes = mesh_.cell(pair.facet);
+    Vector3d rise = pair.foot;
+    for (std::size_t i = 0; i < nodes.size(); ++i) rise -= pair.weights[i] * positions_[nodes[i]];
+    pair.thickness += pair.normal.dot(rise);
+  }
+
   std::optional<FacetSearch::Hit> place_on_master(int slave, FacedFacet before) const {
     OwnNodes own{std::span(&slave, 1)};
     if (zone_.pairing == PairingRule::node) return search_.nearest_node(positions_[slave], own.nodes);
@@ -69,7 +79,8 @@ class ZonePairing {
   const ContactZone& zone_;
   int index_;
   const Mesh& mesh_;
-  bool is_straight_;                ///< see straight_faces.hpp
+  bool takes_corners_;              ///< see straight_faces.hpp
+  bool is_straight_;                ///< the same
   std::vector<Vector3d> straight_;  ///< where they are not where the mesh has them
   Positions positions_;
   double time_;

@@ -43,11 +43,13 @@ void tie_edges(const Mesh& mesh, const DofMap& dofs, int cell, const Origin& ori
 
 }  // namespace
 
+bool has_tied_edges(const ContactZone& zone) { return zone.resolved && !zone.mixed.bilateral; }
+
 std::vector<int> contact_nodes(const Mesh& mesh, const ContactZone& zone) {
   std::set<int> nodes;
   for (const int cell : zone.slave_cells) {
     const auto all = mesh.cell(cell);
-    const auto taken = zone.resolved && mesh.cell_types[cell] == CellType::quad8 ? all.first(corners) : all;
+    const auto taken = has_tied_edges(zone) && mesh.cell_types[cell] == CellType::quad8 ? all.first(corners) : all;
     nodes.insert(taken.begin(), taken.end());
   }
   return {nodes.begin(), nodes.end()};
@@ -90,7 +92,7 @@ std::vector<LinearRelation> straight_edges(const Mesh& mesh, const DofMap& dofs,
   std::set<int> tied;
   std::vector<LinearRelation> relations;
   for (const ContactZone& zone : contact.zones) {
-    if (!zone.resolved) continue;
+    if (!has_tied_edges(zone)) continue;
     for (const auto* cells : {&zone.master_cells, &zone.slave_cells}) {
       for (const int cell : *cells) {
         if (mesh.cell_types[cell] == CellType::quad8) tie_edges(mesh, dofs, cell, origin, tied, relations);

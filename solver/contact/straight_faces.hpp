@@ -2,7 +2,9 @@
 // U2.04.04).
 //
 // A uniform pressure on such a face pulls at its corners, which unilateral conditions would let go. With each middle
-// node tied to the ends of its edge, forces reach the corners alone, and all of the same sign.
+// node tied to the ends of its edge, forces reach the corners alone, and all of the same sign. Where contact does not open
+// again (GLISSIERE) nothing lets go: no edge is tied, middle nodes make contact as well, and faces are as curved as they
+// are, but it is the corners of the master's that bear (Code_Aster 17.3).
 #pragma once
 
 #include <span>
@@ -18,8 +20,11 @@
 
 namespace comma::solver {
 
-/// The nodes of the slave cells of a zone that may make contact, rising: all but the middle nodes of QUAD8 faces, which
-/// straight_edges() ties; of a zone that is watched, all.
+/// Whether the edges of QUAD8 faces of a zone are tied: not of one that is watched, or that does not open again.
+bool has_tied_edges(const ContactZone& zone);
+
+/// The nodes of the slave cells of a zone that may make contact, rising: all but the middle nodes that straight_edges()
+/// ties.
 std::vector<int> contact_nodes(const Mesh& mesh, const ContactZone& zone);
 
 /// Whether a zone has QUAD8 faces.
@@ -37,8 +42,8 @@ void straighten(const Mesh& mesh, std::span<const int> cells, std::unordered_map
 /// Shape functions of a QUAD8 face as those of its corners alone; others stay.
 void take_corners(CellType type, std::span<double> weights);
 
-/// u(middle) = (u(end 1) + u(end 2)) / 2 for each edge of the QUAD8 faces of both surfaces of the zones that are
-/// resolved, for the translations that the nodes carry.
+/// u(middle) = (u(end 1) + u(end 2)) / 2 for each edge of the QUAD8 faces of both surfaces of the zones that have tied
+/// edges, for the translations that the nodes carry.
 std::vector<LinearRelation> straight_edges(const Mesh& mesh, const DofMap& dofs, const ContactDefinition& contact);
 
 }  // namespace comma::solver

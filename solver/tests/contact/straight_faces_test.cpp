@@ -109,6 +109,16 @@ TEST_CASE("the corners of an eight-node face make contact, its edges stay straig
   }
 }
 
+TEST_CASE("where contact does not open again, all nodes of an eight-node face make contact, and nothing ties them", "[contact]") {
+  TwoBricks bricks;
+  bricks.zone.mixed.bilateral = true;
+  CHECK(contact_nodes(*bricks.mesh, bricks.zone).size() == 8);
+  auto model = std::make_shared<Model>(Model{bricks.mesh, std::vector(4, Formulation::solid)});
+  ContactDefinition contact;
+  contact.zones = {bricks.zone};
+  CHECK(straight_edges(*bricks.mesh, DofMap(*model), contact).empty());
+}
+
 TEST_CASE("two bricks of HEXA20 pressed together share the squeeze evenly", "[contact]") {
   const TwoBricks bricks;
   const Result result = solved(pressed(bricks));
