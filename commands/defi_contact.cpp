@@ -324,6 +324,7 @@ void take_algorithm(const Call& call, solver::ContactDefinition& definition) {
   definition.active_set_factor = static_cast<int>(call.integer("ITER_CONT_MULT"));
   definition.gradient_iterations = static_cast<int>(call.integer("ITER_GCP_MAXI"));
   definition.gradient_scaled = call.text("PRE_COND") == "DIRICHLET";
+  definition.gradient_stays_admissible = call.text("RECH_LINEAIRE") == "ADMISSIBLE";
 }
 
 // The discrete formulation solves all zones together, by one algorithm (U4.44.11).

@@ -79,6 +79,13 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
                           "be without them: forces come out too small by about that share",
                           doubt.penalty, zone, doubt.length, 100.0 * doubt.share),
               fmt::format("take COEF_PENA = {:.0e}, or ALGO_CONT='CONTRAINTE'", doubt.wanted)};
+    case solver::DoubtKind::coarse_gradients:
+      return {
+          "coarse-gradients",
+          fmt::format("projected gradients stop with slave nodes of zone {} {:.3g} inside the master, {:.0f} % of what "
+                      "they would be without contact: contact forces are wrong by about that share",
+                      zone, doubt.length, 100.0 * doubt.share),
+          fmt::format("take a smaller RESI_ABSO than {:.3g}, or ALGO_CONT='CONTRAINTE'", doubt.penalty)};
     case solver::DoubtKind::soft_friction:
       return {"soft-friction-penalty",
               fmt::format("with {} = {:.3g} slave nodes of zone {} that stick creep by {:.3g}, {:.0f} % of what they "

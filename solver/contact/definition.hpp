@@ -122,9 +122,10 @@ struct ContactDefinition {
   bool stop_on_interpenetration = false;  ///< STOP_INTERP: too deep a node of a watched zone is an error
   bool has_friction = false;    ///< FROTTEMENT='COULOMB', though all coefficients be zero: fields have its components
   bool smooth_normals = false;  ///< LISSAGE: normals at the nodes are averaged and interpolated between them
-  double gradient_tolerance = 1e-8;  ///< RESI_ABSO, for ContactAlgorithm::projected_gradient, a length
-  int gradient_iterations = 0;       ///< ITER_GCP_MAXI; 0: chosen by their number
-  bool gradient_scaled = false;      ///< PRE_COND
+  double gradient_tolerance = 1e-8;       ///< RESI_ABSO, for ContactAlgorithm::projected_gradient, a length
+  int gradient_iterations = 0;            ///< ITER_GCP_MAXI; 0: chosen by their number
+  bool gradient_scaled = false;           ///< PRE_COND
+  bool gradient_stays_admissible = true;  ///< RECH_LINEAIRE: see AdmissibleGradientOptions
   std::vector<ContactZone> zones;
 };
 

@@ -16,10 +16,12 @@
 namespace comma::solver {
 
 enum class DoubtKind : std::uint8_t {
-  soft_penalty,          ///< slave points sink in by a good part of what they would without contact
-  deep_penalty,          ///< they sink in by a good part of the size of the slave side
-  soft_bound,            ///< bounds that give way are passed by a good part of what they would be without
-  soft_friction,         ///< points that stick creep by a good part of what they would slip without friction
+  soft_penalty,      ///< slave points sink in by a good part of what they would without contact
+  deep_penalty,      ///< they sink in by a good part of the size of the slave side
+  soft_bound,        ///< bounds that give way are passed by a good part of what they would be without
+  coarse_gradients,  ///< projected gradients end where nodes are inside the master by a good part of what they would be
+                     ///< without contact
+  soft_friction,     ///< points that stick creep by a good part of what they would slip without friction
   unshared_friction,     ///< points between nodes rub by shears of the nodes, no solution by shares of the limit having
                          ///< been found
   lowered_augmentation,  ///< between nodes the augmentation is softer than given, no solution having been found with
@@ -47,7 +49,7 @@ struct ContactDoubt {
                        ///< back (infinite where it pushes nothing); `weak_friction`, `strong_friction`: of what points
                        ///< that slide lack in the limit of all, or points bear beyond theirs
   double length = 0.0;   ///< m: depth or slip
-  double penalty = 0.0;  ///< the present one
+  double penalty = 0.0;  ///< the present one; `coarse_gradients`: the tolerance (m)
   double wanted = 0.0;   ///< one that would leave a share of `penalty_goal`
   int cell = -1;         ///< slave face of a held overlap
   int node = -1;  ///< slave node of a stale geometry or a watched overlap, the node that moves most of a restless one

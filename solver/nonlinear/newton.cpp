@@ -14,6 +14,7 @@
 #include "solver/linear/largest_component.hpp"
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/line_search.hpp"
+#include "solver/unilateral/admissible_gradient.hpp"
 #include "solver/unilateral/projected_gradient.hpp"
 #include "solver/unilateral/rounds.hpp"
 #include "solver/unilateral/status_iteration.hpp"
@@ -387,28 +388,31 @@ std::vector<double> NewtonSolver::pushed_back(std::size_t zones) {
   return result;
 }
 
-void NewtonSolver::note_doubts(ContactDoubts& doubts) {
+void NewtonSolver::note_doubts(const NewtonState& state, ContactDoubts& doubts) {
   const Eigen::VectorXd& softness = reduced_.inequalities.softness;
-  if (active_.empty() || softness.isZero(0.0)) return;
+  if (active_.empty() || (softness.isZero(0.0) && !by_gradients())) return;
   const Eigen::VectorXd pushed = push_of_active();
+  const Eigen::VectorXd past = reduced_.inequalities.rows * state.reduced - reduced_.inequalities.bounds;
   struct Passed {
     double most = 0.0, reach = 0.0, softest = 0.0;
   };
   std::map<int, Passed> conditions;
   for (const int row : active_) {
-    if (!(softness[row] > 0.0)) continue;
+    if (!(softness[row] > 0.0) && !by_gradients()) continue;
     Passed& passed = conditions[zone_of(row)];
-    const double here = softness[row] * row_multipliers_[row];
+    const double here = by_gradients() ? past[row] : softness[row] * row_multipliers_[row];
     passed.reach = std::max(passed.reach, here + pushed[row]);
     if (here <= passed.most) continue;
     passed.most = here;
     passed.softest = softness[row];
   }
-  for (const auto& [condition, passed] : conditions)
-    if (passed.most > 0.0)
-      note_soft_penalty(
-          {.kind = DoubtKind::soft_bound, .zone = condition, .length = passed.most, .penalty = 1.0 / passed.softest},
-          passed.reach, extent(mesh_), doubts);
+  for (const auto& [condition, passed] : conditions) {
+    if (!(passed.most > 0.0)) continue;
+    ContactDoubt doubt{.zone = condition, .length = passed.most};
+    doubt.kind = by_gradients() ? DoubtKind::coarse_gradients : DoubtKind::soft_bound;
+    doubt.penalty = by_gradients() ? definition_->gradient_tolerance : 1.0 / passed.softest;
+    note_soft_penalty(doubt, passed.reach, extent(mesh_), doubts);
+  }
 }
 
 ActiveSetSolution NewtonSolver::solve_conditions(const ActiveSetProblem& problem) {
@@ -425,6 +429,15 @@ Eigen::VectorXd NewtonSolver::compliance_times(const Eigen::VectorXd& multiplier
 
 ActiveSetSolution NewtonSolver::solve_by_gradients(const ActiveSetProblem& problem) {
   const auto& rows = reduced_.inequalities.rows;
+  const auto apply = [this](const Eigen::VectorXd& x) { return compliance_times(x); };
+  if (!definition_->gradient_scaled) {
+    auto solution = solve_admissible_gradient(apply, problem,
+                                              {.tolerance = definition_->gradient_tolerance,
+                                               .max_iterations = definition_->gradient_iterations,
+                                               .start = row_multipliers_,
+                                               .stays_admissible = definition_->gradient_stays_admissible});
+    if (solution) return *std::move(solution);
+  }
   ProjectedGradientOptions options;
   options.tolerance = definition_->gradient_tolerance;
   options.max_iterations = definition_->gradient_iterations;
@@ -436,8 +449,7 @@ ActiveSetSolution NewtonSolver::solve_by_gradients(const ActiveSetProblem& probl
         options.scaling[row] += it.value() * it.value() * tangent_.row_sizes()[it.col()];
     options.scaling = options.scaling.cwiseSqrt();
   }
-  ActiveSetSolution solution =
-      solve_projected_gradient([this](const Eigen::VectorXd& x) { return compliance_times(x); }, problem, options);
+  ActiveSetSolution solution = solve_projected_gradient(apply, problem, options);
   if (solution.verdict == ActiveSetVerdict::contradictory)
     throw Error("contradictory-conditions",
                 "projected conjugate gradients find contact forces without bound: some conditions cannot hold together",

@@ -67,7 +67,7 @@ class NewtonSolver {
   /// (lengths); 0 of zones where nothing is closed.
   std::vector<double> pushed_back(std::size_t zones);
   /// Of a step that has converged: how far bounds that give way are passed.
-  void note_doubts(ContactDoubts& doubts);
+  void note_doubts(const NewtonState& state, ContactDoubts& doubts);
 
   /// Which stiffness the first iteration of the next steps takes.
   void predict_with(TangentKind kind) { prediction_ = kind; }

@@ -74,7 +74,7 @@ void StaticRun::run(const StepPlan& plan) {
     if (tangent_.is_indefinite()) ++counters_.indefinite_solutions;
     if (mixed_) mixed_->accept_step(instant - from);
     if (path_) path_->accept_step(now_.state.u);
-    mixed_ ? mixed_->note_doubts(now_.state.u, doubts_) : newton_.note_doubts(doubts_);
+    mixed_ ? mixed_->note_doubts(now_.state.u, doubts_) : newton_.note_doubts(now_.state, doubts_);
     note_doubts_about_surfaces(instant);
     if (problem_.contact && !problem_.contact->stop_on_interpenetration)
       note_interpenetration(*problem_.contact, mesh_, positions(), instant, doubts_);
