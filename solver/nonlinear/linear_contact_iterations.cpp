@@ -79,8 +79,10 @@ int MixedContact::face_and_linearise(const Eigen::VectorXd& u, double time) {
 
 /// Another geometry within a step acts from here on: the solve before was still that of the last one.
 int MixedContact::linearise_secants(const Eigen::VectorXd& u) {
-  if (const auto next = std::exchange(next_geometry_, std::nullopt)) face(next->places, next->time, next->margin);
-  const Eigen::VectorXd now = jumps(u);
+  const auto next = std::exchange(next_geometry_, std::nullopt);
+  if (next) face(next->places, next->time, next->margin);
+  Eigen::VectorXd now = jumps(u);
+  if (!next && secants_.linearisations > 0) take_solved_gaps(now);
   const bool accelerated = secants_.last_residual < accelerated_below;
   ++secants_.linearisations;
   secants_.reliefs.clear();
@@ -98,6 +100,16 @@ int MixedContact::linearise_secants(const Eigen::VectorXd& u) {
     if (point.rows > 0) shears[point.first_row] = 0.0;
   secants_.shears = rows_.full().transpose() * shears;
   return changes;
+}
+
+/// Where the last solve pressed by a penalty its force tells the gap to all digits; the displacements of a body on weak
+/// springs tell it to their own rounding, which a stiff penalty makes a force.
+void MixedContact::take_solved_gaps(Eigen::VectorXd& jumps) const {
+  for (std::size_t p = 0; p < points().size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    if (point.rows > 0 && secants_.was_closed[p] != 0)
+      jumps[point.first_row] = -secants_.held[point.first_row] / (point.weight * point.law.penalty());
+  }
 }
 
 /// Where a point has just closed friction does not act yet. The first solve of a step, which leaves contact as it was,
@@ -129,6 +141,27 @@ ContactStatus MixedContact::take_secant(std::size_t p, const Eigen::VectorXd& ju
   return shear.status;
 }
 
+/// Of each point, as the rows at hand have them; zero where there are none.
+std::vector<Vector3d> MixedContact::forces_of_points(const Eigen::VectorXd& on_rows) const {
+  std::vector<Vector3d> forces(problem_.points.size(), Vector3d::Zero());
+  if (on_rows.size() != rows_.full().rows()) return forces;
+  for (std::size_t p = 0; p < forces.size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    if (point.rows > 0) forces[p].head(point.rows) = on_rows.segment(point.first_row, point.rows);
+  }
+  return forces;
+}
+
+/// Points come in the same order at every pairing.
+Eigen::VectorXd MixedContact::forces_on_rows(const std::vector<Vector3d>& of_points) const {
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(rows_.full().rows());
+  for (std::size_t p = 0; p < of_points.size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    if (point.rows > 0) forces.segment(point.first_row, point.rows) = of_points[p].head(point.rows);
+  }
+  return forces;
+}
+
 /// Contact as an accepted step leaves it, with which the next one begins: its forces stay for one solve.
 void MixedContact::carry_contact() {
   const bool is_known = forces_.size() == rows_.full().rows();
@@ -142,7 +175,6 @@ void MixedContact::begin_secants() {
   secants_.began_closed = are_new ? std::vector<char>(points().size(), 0) : secants_.end_closed;
   secants_.was_closed = secants_.began_closed;
   secants_.rubs.assign(points().size(), 0);
-  secants_.held = Eigen::VectorXd::Zero(rows_.full().rows());
   secants_.solved = secants_.carried.size() ? secants_.carried : Eigen::VectorXd(Eigen::VectorXd::Zero(dofs_.size()));
 }
 
@@ -172,11 +204,15 @@ Eigen::VectorXd MixedContact::forces_left_out() const {
   return rows_.reduced().transpose() * (forces_ - secants_.held);
 }
 
-double MixedContact::held_imbalance() const {
-  if (!is_secant()) return 0.0;
+MixedContact::HeldImbalance MixedContact::held_imbalance() const {
+  HeldImbalance result;
+  if (!is_secant()) return result;
   Eigen::VectorXd left = rows_.full().transpose() * forces_ - secants_.solved;
   for (const int dof : elimination_.kept()) left[dof] = 0.0;
-  return largest_component(left);
+  result.largest = largest_component(left);
+  for (const int dof : eliminated_) left[dof] = 0.0;
+  result.counted = largest_component(left);
+  return result;
 }
 
 void MixedContact::note_residual(double share) {

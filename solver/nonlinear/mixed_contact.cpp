@@ -68,6 +68,7 @@ void MixedContact::pair(Positions positions, double time, double margin) {
 }
 
 void MixedContact::face(Positions positions, double time, double margin) {
+  const std::vector<Vector3d> held = forces_of_points(secants_.held);
   rows_.face(positions, time, margin);
   ++counters_.pairings;
   problem_.points = rows_.build(reference_);
@@ -77,7 +78,7 @@ void MixedContact::face(Positions positions, double time, double margin) {
   if (!started_) start_statuses(jumps(reference_));
   started_ = true;
   if (secants_.predicts) begin_secants();
-  secants_.held = Eigen::VectorXd::Zero(rows_.full().rows());
+  secants_.held = forces_on_rows(held);
   hold_back_points();
   for (std::size_t p = 0; p < points().size(); ++p)
     if (problem_.points[p].rows == 0) state_.statuses[p] = ContactStatus::open;
@@ -92,6 +93,7 @@ void MixedContact::accept_step(double duration) {
 
 void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
   secants_.predicts = is_secant();
+  secants_.held = forces_;
   secants_.linearisations = 0;
   next_geometry_.reset();
   if (secants_.predicts && started_) begin_secants();

@@ -58,6 +58,8 @@ class MixedContact {
   /// contact without friction by Newton's method alone (`whole_newton`), secants for penalties that rub between nodes.
   Iterations iterations_like_code_aster(bool whole_newton) const;
   void iterate(Iterations iterations);
+  /// These unknowns are eliminated, without reactions (AFFE_CHAR_CINE): held_imbalance() leaves them out.
+  void set_eliminated(std::vector<int> dofs) { eliminated_ = std::move(dofs); }
   /// Whether `correct` takes one step with the statuses at hand, and `linearise` gives the next.
   bool is_linear() const { return problem_.one_step; }
   bool is_joint() const { return iterations_ == Iterations::joint; }
@@ -69,9 +71,13 @@ class MixedContact {
   /// ones ask for none, and nodes that had moved by no more than RESI_GEOM since points were faced before (see
   /// geometry_change); secants that friction has acted wherever points are closed.
   bool may_end(int changes) const;
-  /// By secants, the largest force at an unknown that conditions hold which the last linear solve did not balance: a
-  /// reaction is that of the solve.
-  double held_imbalance() const;
+  /// By secants, the largest force at an unknown that conditions hold by reactions which the last linear solve did not
+  /// balance: a reaction is that of the solve.
+  struct HeldImbalance {
+    double counted = 0.0;  ///< a force, where there are reactions
+    double largest = 0.0;  ///< the same of all that conditions hold: it counts among the loads
+  };
+  HeldImbalance held_imbalance() const;
   /// The residual of an iteration, as a share of the loads.
   void note_residual(double share);
   /// Whether points overlap at u that wait for the geometry at the end of the step (see hold_back_points): points must
@@ -138,9 +144,9 @@ class MixedContact {
     double last_residual = 1.0;  ///< as a share of the loads
     bool predicts = false;       ///< the step begins: contact forces stay for one solve
     Eigen::VectorXd carried;     ///< these, on all degrees of freedom; empty: none
-    Eigen::VectorXd held;        ///< forces on the rows in the last linear solve; 0 where these are new
-    Eigen::VectorXd solved;      ///< those of the last linear solve, on all degrees of freedom
-    Eigen::VectorXd shears;      ///< friction where that began, on all degrees of freedom
+    Eigen::VectorXd held;    ///< forces on the rows in the last linear solve; where these are new, on the same points
+    Eigen::VectorXd solved;  ///< those of the last linear solve, on all degrees of freedom
+    Eigen::VectorXd shears;  ///< friction where that began, on all degrees of freedom
   };
 
   struct Geometry {
@@ -151,7 +157,10 @@ class MixedContact {
   void face(Positions positions, double time, double margin);
   int face_and_linearise(const Eigen::VectorXd& u, double time);
   int linearise_secants(const Eigen::VectorXd& u);
+  void take_solved_gaps(Eigen::VectorXd& jumps) const;
   ContactStatus take_secant(std::size_t p, const Eigen::VectorXd& jumps, bool accelerated);
+  std::vector<Eigen::Vector3d> forces_of_points(const Eigen::VectorXd& on_rows) const;
+  Eigen::VectorXd forces_on_rows(const std::vector<Eigen::Vector3d>& of_points) const;
   void carry_contact();
   void begin_secants();
   bool can_predict() const;
@@ -201,6 +210,7 @@ class MixedContact {
   CondensedProblem problem_;
   CondensedState state_;
   bool started_ = false;
+  std::vector<int> eliminated_;
   /// Of what is given, between nodes: lowered in a step where nothing else leads to a solution.
   double augmentation_share_ = 1.0;
   bool rubs_by_shears_ = false;  ///< see CondensedSolution::by_shears

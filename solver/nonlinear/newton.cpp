@@ -211,9 +211,9 @@ void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& 
 
 ConvergenceCriterion::Measure NewtonSolver::distance(const NewtonState& state) const {
   const Eigen::VectorXd weighed = weights_.weighed(residual_);
-  const double held = mixed_ ? mixed_->held_imbalance() : 0.0;
-  return criterion_.measure(std::max(held, largest_component(weighed)), std::max(held, load_), is_rounding(state),
-                            reference_.share(residual_), reference_.share_by_component(weighed));
+  const MixedContact::HeldImbalance held = mixed_ ? mixed_->held_imbalance() : MixedContact::HeldImbalance();
+  return criterion_.measure(std::max(held.counted, largest_component(weighed)), std::max(held.largest, load_),
+                            is_rounding(state), reference_.share(residual_), reference_.share_by_component(weighed));
 }
 
 /// Whether the residual is no more than the last bits of u, moved to and fro, make of it. Not where u is so large that

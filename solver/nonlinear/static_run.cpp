@@ -20,6 +20,18 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// Those that conditions hold by elimination alone (AFFE_CHAR_CINE).
+std::vector<int> dofs_without_reactions(const std::vector<AppliedLoad>& loads, const DofMap& dofs) {
+  std::vector<int> result;
+  for (const AppliedLoad& applied : loads) {
+    if (applied.load->multipliers_per_relation > 0) continue;
+    for (const LinearRelation& relation : applied.load->relations)
+      for (const auto& term : relation.terms)
+        if (const int dof = dofs.dof(term.node, term.component); dof >= 0) result.push_back(dof);
+  }
+  return result;
+}
+
 }  // namespace
 
 StaticRun::StaticRun(const StaticProblem& problem, const NewtonOptions& options, Result& result, Counters& counters,
@@ -56,6 +68,7 @@ StaticRun::StaticRun(const StaticProblem& problem, const NewtonOptions& options,
   tangent_.allow_springs();
   mixed_ = std::make_unique<MixedContact>(*problem.contact, *problem.model, dofs_, elimination_, tangent_, counters,
                                           support());
+  mixed_->set_eliminated(dofs_without_reactions(problem.loads, dofs_));
   newton_.attach(mixed_.get());
 }
 
