@@ -98,6 +98,7 @@ void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
   reference_ = faced_at_ = u;
   step_begins_ = true;
   augmentation_share_ = 1.0;
+  opens_by_gaps_ = false;
   adapted_.start_step(closed_count() > 0);
   apply_penalties();
   problem_.expected = state_.multipliers + duration * rates_;
@@ -391,6 +392,7 @@ void MixedContact::apply_penalties() {
     const auto zone = static_cast<std::size_t>(points()[p].zone);
     penalties_.apply(definition_.zones[zone].mixed, points()[p].zone, problem_.points[p]);
     if (adapts(zone)) problem_.points[p].law.augmentation = adapted_.penalty(p);
+    problem_.points[p].law.opens_by_gap = opens_by_gaps_;
   }
 }
 
@@ -425,8 +427,11 @@ SolvedContact MixedContact::solved(const Eigen::VectorXd& u) const {
 
 void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) {
   const ContactResponse response{[this](const Eigen::VectorXd& forces) { return pushed_by(forces); },
-                                 [this, &u] { return pushed_back(u); }, penalties_, rubs_by_shears_,
-                                 augmentation_share_ < 1.0};
+                                 [this, &u] { return pushed_back(u); },
+                                 penalties_,
+                                 rubs_by_shears_,
+                                 augmentation_share_ < 1.0,
+                                 opens_by_gaps_};
   comma::solver::note_doubts(solved(u), response, doubts);
 }
 

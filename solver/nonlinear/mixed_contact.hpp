@@ -167,6 +167,7 @@ class MixedContact {
   void add_natural_augmentation();
   double augmentation_of(const ContactZone& zone) const;
   bool lower_augmentation();
+  bool open_by_gaps();
   CondensedSolution solve_law();
   double stiffness_at(std::size_t p) const;
   double resistance_at(std::size_t p) const;
@@ -203,6 +204,7 @@ class MixedContact {
   bool started_ = false;
   /// Of what is given, between nodes: lowered in a step where nothing else leads to a solution.
   double augmentation_share_ = 1.0;
+  bool opens_by_gaps_ = false;   ///< points between nodes that have penalties: for the rest of a step
   bool rubs_by_shears_ = false;  ///< see CondensedSolution::by_shears
   std::tuple<CondensedState, RaisedPenalties, AdaptedPenalties, bool, std::shared_ptr<const ContactMemory>, Secants>
       remembered_;
