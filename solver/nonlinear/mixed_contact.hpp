@@ -172,6 +172,7 @@ class MixedContact {
   double stiffness_at(std::size_t p) const;
   double resistance_at(std::size_t p) const;
   bool is_faced_again() const;
+  void hold_points();
   void hold_back_points();
   void check_blocked_points(const Eigen::VectorXd& jumps) const;
   std::vector<int> row_keys() const;
@@ -218,6 +219,7 @@ class MixedContact {
   double geometry_change_ = 0.0;
   Eigen::VectorXd start_;               ///< multipliers when the step began
   Eigen::VectorXd rates_;               ///< of multipliers, in the last step that was accepted
+  std::vector<char> began_closed_;      ///< points, when the step began
   bool step_begins_ = false;            ///< and no point has been faced in it
   std::vector<std::size_t> held_back_;  ///< points that may not close yet
   std::unique_ptr<SchurComplement> schur_;
