@@ -111,6 +111,13 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
           fmt::format("take COEF_CONT = {:.0e}, put points on the nodes, where it is not in the solution "
                       "(INTEGRATION='AUTO' on linear faces), or take smaller steps",
                       doubt.wanted)};
+    case solver::DoubtKind::opening_by_gaps:
+      return {"opening-by-gaps",
+              fmt::format("with the penalty no states of the points of zone {} between nodes hold the law of contact: "
+                          "there they open by their gaps alone, whatever the pressure of the nodes",
+                          zone),
+              "put points on the nodes, where both are the same (INTEGRATION='AUTO' on linear faces), or take "
+              "ALGO_CONT='STANDARD'"};
     case solver::DoubtKind::held_overlap:
       return {"held-overlap",
               fmt::format("conditions on displacements hold slave face {} of zone {} inside the master, {:.3g} deep, "

@@ -50,7 +50,8 @@ struct MixedZone {
   std::optional<double> largest_depth;  ///< PENE_MAXI, a length: the depth from which on a penalty is adapted; nothing:
                                         ///< a share of the smallest master facet
   InitialContact initial = InitialContact::interpenetrating;  ///< CONTACT_INIT
-  bool bilateral = false;           ///< GLISSIERE: a point that has closed does not open again
+  bool bilateral = false;           ///< GLISSIERE: a point that has closed does not open again (see
+                                    ///< ContactDefinition::holds_from_next_step)
   double friction = 0.0;            ///< COULOMB
   bool friction_penalised = false;  ///< while it sticks the shear is `friction_penalty` times the slip (E_T); in the
                                     ///< mixed formulation the same of shares of the limit of friction (COEF_PENA_FROT)
@@ -116,6 +117,8 @@ struct ContactDefinition {
   /// Penalties that depths adapt are so until they stay, for each geometry (ALGO_RESO_CONT='NEWTON'); otherwise once a
   /// geometry.
   bool settles_penalties = false;
+  /// Of bilateral zones, points that a step closes may open again in it (ALGO_RESO_CONT='NEWTON'); otherwise none does.
+  bool holds_from_next_step = false;
   bool joint_iterations = false;          ///< one iteration of Newton's method updates statuses, geometry and bodies
                                           ///< (ALGO_RESO_CONT and ALGO_RESO_GEOM 'NEWTON')
   int active_set_factor = 30;             ///< ITER_CONT_MULT: at most this many active-set iterations per slave node

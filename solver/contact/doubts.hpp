@@ -26,8 +26,10 @@ enum class DoubtKind : std::uint8_t {
                          ///< been found
   lowered_augmentation,  ///< between nodes the augmentation is softer than given, no solution having been found with
                          ///< that
-  held_overlap,    ///< conditions on displacements hold a point inside the master, and a penalty gives it no force
-  passed_master,   ///< master nodes between slave points have gone through the slave side
+  opening_by_gaps,  ///< points between nodes that have penalties open by their gaps, no solution having been found in
+                    ///< which pressures of the nodes hold them
+  held_overlap,     ///< conditions on displacements hold a point inside the master, and a penalty gives it no force
+  passed_master,    ///< master nodes between slave points have gone through the slave side
   passed_average,  ///< under local average contact slave nodes are inside the master: patches hold it in the mean alone
   weak_friction,   ///< points between nodes that slide bear less than the limit of friction: that is of the multipliers
                    ///< of nodes they share with open ones

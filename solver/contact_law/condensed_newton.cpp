@@ -175,7 +175,7 @@ bool CondensedNewton::is_meant(std::size_t p, ContactStatus now, ContactStatus w
   const ContactLaw law = equations_.law_of(p);
   const Vector3d multiplier = equations_.multiplier_at(point);
   const Vector3d jump = equations_.jump_at(point);
-  const double pressure = trial_pressure(law, multiplier, jump);
+  const double pressure = closing_pressure(law, multiplier, jump);
   if (now == ContactStatus::open)
     return pressure > law.augmentation * std::max(status_tolerance * equations_.scale(),
                                                   pressure_roundings * equations_.law_rounding(p)[0]);

@@ -13,11 +13,17 @@ using Eigen::Vector3d;
 double pressure_share(const ContactLaw& law) { return law.penalised ? law.pressure_share : 1.0; }
 double shear_share(const ContactLaw& law) { return law.friction_penalised ? law.shear_share : 1.0; }
 
+/// On nodes the depth, which is the multiplier once the law holds, limits the shear of a penalty.
+bool is_limited_by_depth(const ContactLaw& law) { return law.penalised && law.pointwise; }
+
 /// The pressure that limits shear is the multiplier itself, without the augmentation (R5.03.52): the gap vanishes in
-/// the mean alone where points lie between nodes.
+/// the mean alone where points lie between nodes, and so has Code_Aster 17.3 it with a penalty.
 double limiting_pressure(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
-  return std::max(0.0, law.penalised ? trial_pressure(law, multiplier, jump) : multiplier[0]);
+  return std::max(0.0, is_limited_by_depth(law) ? trial_pressure(law, multiplier, jump) : multiplier[0]);
 }
+
+double limit_by_multiplier(const ContactLaw& law) { return is_limited_by_depth(law) ? law.pressure_share : 1.0; }
+double limit_by_gap(const ContactLaw& law) { return is_limited_by_depth(law) ? -law.augmentation : 0.0; }
 
 Vector2d trial_shear(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
   return shear_share(law) * multiplier.tail<2>() + law.friction_augmentation * jump.tail<2>();
@@ -66,8 +72,8 @@ void add_traction(const ContactLaw& law, const Shear& shear, ContactLawValue& va
   value.traction.tail<2>() = -shear.value;
   value.traction_by_multiplier.bottomRightCorner<2, 2>() = -shear_share(law) * shear.by_trial;
   value.traction_by_jump.bottomRightCorner<2, 2>() = -law.friction_augmentation * shear.by_trial;
-  value.traction_by_multiplier.bottomLeftCorner<2, 1>() = -pressure_share(law) * shear.by_pressure;
-  value.traction_by_jump.bottomLeftCorner<2, 1>() = (law.penalised ? law.augmentation : 0.0) * shear.by_pressure;
+  value.traction_by_multiplier.bottomLeftCorner<2, 1>() = -limit_by_multiplier(law) * shear.by_pressure;
+  value.traction_by_jump.bottomLeftCorner<2, 1>() = -limit_by_gap(law) * shear.by_pressure;
 }
 
 void add_shear(const ContactLaw& law, const Shear& shear, const Vector3d& multiplier, ContactLawValue& value) {
@@ -121,9 +127,8 @@ void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shea
       weight / augmentation * (shear_share(law) * unit.by_trial - Matrix2d::Identity());
   value.residual_by_jump.bottomRightCorner<2, 2>() = weight * unit.by_trial;
   if (!counts_by_pressure || is_held || present <= least_pressure_share) return;
-  value.residual_by_multiplier.bottomLeftCorner<2, 1>() = pressure_share(law) / law.share_pressure * left;
-  value.residual_by_jump.bottomLeftCorner<2, 1>() =
-      (law.penalised ? -law.augmentation : 0.0) / law.share_pressure * left;
+  value.residual_by_multiplier.bottomLeftCorner<2, 1>() = limit_by_multiplier(law) / law.share_pressure * left;
+  value.residual_by_jump.bottomLeftCorner<2, 1>() = limit_by_gap(law) / law.share_pressure * left;
 }
 
 /// Its multiplier is the traction.
@@ -181,6 +186,11 @@ double trial_pressure(const ContactLaw& law, const Vector3d& multiplier, const V
   return pressure_share(law) * multiplier[0] - law.augmentation * jump[0];
 }
 
+double closing_pressure(const ContactLaw& law, const Vector3d& multiplier, const Vector3d& jump) {
+  if (!law.penalised || law.pointwise || law.opens_by_gap) return trial_pressure(law, multiplier, jump);
+  return multiplier[0] - law.penalty() * jump[0];
+}
+
 Vector3d live_part(const ContactLaw& law, Vector3d value) {
   value.tail<2>() -= law.dead.dot(value.tail<2>()) * law.dead;
   return value;
@@ -189,8 +199,7 @@ Vector3d live_part(const ContactLaw& law, Vector3d value) {
 Matrix2d live_directions(const ContactLaw& law) { return Matrix2d::Identity() - law.dead * law.dead.transpose(); }
 
 ContactStatus contact_status(const ContactLaw& law, bool closed, const Vector3d& multiplier, const Vector3d& jump) {
-  const double pressure = trial_pressure(law, multiplier, jump);
-  if (!closed && !(pressure > 0.0)) return ContactStatus::open;
+  if (!closed && !(closing_pressure(law, multiplier, jump) > 0.0)) return ContactStatus::open;
   if (!(law.friction > 0.0)) return ContactStatus::sliding;
   return shear_beyond_limit(law, multiplier, jump) <= 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
 }

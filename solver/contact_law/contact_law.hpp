@@ -32,6 +32,7 @@ struct ContactLaw {
   double share_pressure = 0.0;
   /// Whether the multiplier is that of this point alone, and so the traction once the law holds.
   bool pointwise = false;
+  bool opens_by_gap = false;  ///< of a penalty between nodes: where it does not overlap (see closing_pressure)
   double held_share = 0.0;  ///< positive: by shares, what stands for the present pressure over share_pressure, save in
                             ///< the limit of friction
   std::optional<LinearShear> linear_shear;  ///< stands for the law of friction while the point is closed
@@ -74,8 +75,13 @@ Eigen::Vector3d live_part(const ContactLaw& law, Eigen::Vector3d value);
 /// The same of two tangents, as a matrix.
 Eigen::Matrix2d live_directions(const ContactLaw& law);
 
-/// The pressure that the law brings while it is closed; it opens where this does not push.
+/// The pressure that the law brings while it is closed.
 double trial_pressure(const ContactLaw& law, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);
+
+/// A point opens where this does not push. Of a penalty between nodes it is the interpolated multiplier less the
+/// penalty times the gap, as in Code_Aster 17.3: a point on which the nodes press stays closed, and pulls, across a
+/// small gap.
+double closing_pressure(const ContactLaw& law, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);
 
 /// The status that the law gives a point. `closed` points stay so.
 ContactStatus contact_status(const ContactLaw& law, bool closed, const Eigen::Vector3d& multiplier,

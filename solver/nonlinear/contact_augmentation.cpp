@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/contact_law/nodal_step.hpp"
 #include "solver/nonlinear/mixed_contact.hpp"
 
 namespace comma::solver {
@@ -71,6 +72,15 @@ bool MixedContact::lower_augmentation() {
   return all() != before;
 }
 
+/// Between nodes the pressure of a penalty is that of the states of all points of the face, and these are by it: there
+/// may be none that go together. Gaps alone are closed or not. Whether any point has such a law.
+bool MixedContact::open_by_gaps() {
+  if (opens_by_gaps_ || has_points_on_nodes(problem_) || !has_penalties()) return false;
+  opens_by_gaps_ = true;
+  apply_penalties();
+  return true;
+}
+
 /// With the augmentations given; where there is no solution, with softer ones.
 CondensedSolution MixedContact::solve_law() {
   const CondensedState earlier = state_;
@@ -80,6 +90,10 @@ CondensedSolution MixedContact::solve_law() {
     const int iterations = solution.iterations;
     solution = solve_condensed(*schur_, problem_, state_);
     solution.iterations += iterations;
+  }
+  if (solution.verdict == CondensedVerdict::too_many_iterations && schur_->is_exact() && open_by_gaps()) {
+    state_ = earlier;
+    solution = solve_condensed(*schur_, problem_, state_);
   }
   return solution;
 }

@@ -178,6 +178,12 @@ void note_lowered_augmentation(const SolvedContact& contact, ContactDoubts& doub
   }
 }
 
+void note_opening_by_gaps(const SolvedContact& contact, ContactDoubts& doubts) {
+  for (std::size_t p = 0; p < contact.points().size(); ++p)
+    if (contact.problem.points[p].node_count > 1 && contact.problem.points[p].law.penalised)
+      doubts.note({.kind = DoubtKind::opening_by_gaps, .zone = contact.points()[p].zone});
+}
+
 void note_held_overlaps(const SolvedContact& contact, ContactDoubts& doubts) {
   for (const std::size_t p : contact.rows.blocked()) {
     const double depth = -contact.jumps[contact.problem.points[p].first_row];
@@ -195,6 +201,7 @@ void note_held_overlaps(const SolvedContact& contact, ContactDoubts& doubts) {
 
 void note_doubts(const SolvedContact& contact, const ContactResponse& response, ContactDoubts& doubts) {
   if (response.by_shears) note_unshared_friction(contact, doubts);
+  if (response.opens_by_gaps) note_opening_by_gaps(contact, doubts);
   if (response.augmentation_is_lowered) note_lowered_augmentation(contact, doubts);
   if (contact.rows.full().rows() == 0) return;
   note_coarse_faces(contact, response, doubts);

@@ -22,6 +22,7 @@ struct ContactResponse {
   const RaisedPenalties& penalties;
   bool by_shears = false;                ///< see CondensedSolution
   bool augmentation_is_lowered = false;  ///< between nodes, below what is given
+  bool opens_by_gaps = false;            ///< see ContactLaw
 };
 
 /// How far penalties, and faces too coarse for what they touch, let the bodies into each other.

@@ -49,22 +49,24 @@ GeometryChange geometry_change(const Mesh& mesh, const DofMap& dofs, const Eigen
                                const Eigen::VectorXd& paired, const Eigen::VectorXd& now) {
   GeometryChange change;
   double moved = 0.0;
-  double largest = 0.0;
+  double largest = 0.0, largest_before = 0.0;
   double whole = 0.0;
   double reach = 0.0;
   for (int node = 0; node < mesh.node_count(); ++node) {
     const Vector3d at = displacement_of(node, now, dofs);
-    const double here = (at - displacement_of(node, paired, dofs)).norm();
+    const Vector3d before = displacement_of(node, paired, dofs), at_start = displacement_of(node, start, dofs);
+    const double here = (at - before).norm();
     if (here > moved) change.worst = node;
     moved = std::max(moved, here);
     whole = std::max(whole, at.norm());
     for (const double coordinate : mesh.nodes[static_cast<std::size_t>(node)])
       reach = std::max(reach, std::abs(coordinate));
-    largest = std::max(largest, (at - displacement_of(node, start, dofs)).norm());
+    largest = std::max(largest, (at - at_start).norm());
+    largest_before = std::max(largest_before, (before - at_start).norm());
   }
   // Nothing is asked of a step that only rounding moves, of displacements or of places.
   const double rounding = std::max(negligible_displacement * whole, std::numeric_limits<double>::epsilon() * reach);
-  if (moved > rounding) change.share = moved / largest;
+  if (moved > rounding) change.share = moved / (largest_before > rounding ? largest_before : largest);
   return change;
 }
 

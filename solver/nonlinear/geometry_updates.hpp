@@ -16,12 +16,13 @@ namespace comma::solver {
 
 /// How far nodes have moved.
 struct GeometryChange {
-  double share = 0.0;  ///< of the largest displacement of the step; 0 where only rounding moves
+  double share = 0.0;  ///< of the largest displacement of the step before the move (after the first move of a step);
+                       ///< 0 where only rounding moves
   int worst = -1;      ///< the node that moved most; -1: none did
 };
 
 /// From displacements `paired` to `now`, in a step that began at `start`: all nodes count, and displacements by their
-/// length (ssnv104h tells).
+/// length (ssnv104h tells). The share is what Code_Aster 17.3 prints for each geometry, to all six digits.
 GeometryChange geometry_change(const Mesh& mesh, const DofMap& dofs, const Eigen::VectorXd& start,
                                const Eigen::VectorXd& paired, const Eigen::VectorXd& now);
 

@@ -75,8 +75,12 @@ void MixedContact::face(Positions positions, double time, double margin) {
   adapted_.face(definition_, points(), mesh_);
   apply_penalties();
   share_friction();
-  if (!started_) start_statuses(jumps(reference_));
+  if (!started_) {
+    start_statuses(jumps(reference_));
+    began_closed_ = closed_points();
+  }
   started_ = true;
+  hold_points();
   if (secants_.predicts) begin_secants();
   secants_.held = forces_on_rows(held);
   hold_back_points();
@@ -99,7 +103,12 @@ void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
   if (secants_.predicts && started_) begin_secants();
   reference_ = faced_at_ = u;
   step_begins_ = true;
+  if (started_) {
+    began_closed_ = closed_points();
+    hold_points();
+  }
   augmentation_share_ = 1.0;
+  opens_by_gaps_ = false;
   adapted_.start_step(closed_count() > 0);
   apply_penalties();
   problem_.expected = state_.multipliers + duration * rates_;
@@ -126,6 +135,14 @@ void MixedContact::share_friction() {
 bool MixedContact::is_faced_again() const {
   if (definition_.geometry_update == GeometryUpdate::controlled) return definition_.controlled_updates > 1;
   return definition_.geometry_update == GeometryUpdate::automatic && definition_.max_geometry_updates > 1;
+}
+
+/// Code_Aster 17.3, in ssnv104e and in scenes of two blocks: Newton's method on contact holds what a step begins with.
+void MixedContact::hold_points() {
+  if (!definition_.holds_from_next_step) return;
+  for (std::size_t p = 0; p < points().size(); ++p)
+    problem_.points[p].bilateral =
+        definition_.zones[static_cast<std::size_t>(points()[p].zone)].mixed.bilateral && began_closed_[p] != 0;
 }
 
 /// What never opens again does not close on a surface as it lay before the step: points of bilateral zones wait for the
@@ -393,6 +410,7 @@ void MixedContact::apply_penalties() {
     const auto zone = static_cast<std::size_t>(points()[p].zone);
     penalties_.apply(definition_.zones[zone].mixed, points()[p].zone, problem_.points[p]);
     if (adapts(zone)) problem_.points[p].law.augmentation = adapted_.penalty(p);
+    problem_.points[p].law.opens_by_gap = opens_by_gaps_;
   }
 }
 
@@ -427,8 +445,11 @@ SolvedContact MixedContact::solved(const Eigen::VectorXd& u) const {
 
 void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) {
   const ContactResponse response{[this](const Eigen::VectorXd& forces) { return pushed_by(forces); },
-                                 [this, &u] { return pushed_back(u); }, penalties_, rubs_by_shears_,
-                                 augmentation_share_ < 1.0};
+                                 [this, &u] { return pushed_back(u); },
+                                 penalties_,
+                                 rubs_by_shears_,
+                                 augmentation_share_ < 1.0,
+                                 opens_by_gaps_};
   comma::solver::note_doubts(solved(u), response, doubts);
 }
 

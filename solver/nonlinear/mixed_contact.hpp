@@ -176,10 +176,12 @@ class MixedContact {
   void add_natural_augmentation();
   double augmentation_of(const ContactZone& zone) const;
   bool lower_augmentation();
+  bool open_by_gaps();
   CondensedSolution solve_law();
   double stiffness_at(std::size_t p) const;
   double resistance_at(std::size_t p) const;
   bool is_faced_again() const;
+  void hold_points();
   void hold_back_points();
   void check_blocked_points(const Eigen::VectorXd& jumps) const;
   std::vector<int> row_keys() const;
@@ -213,6 +215,7 @@ class MixedContact {
   std::vector<int> eliminated_;
   /// Of what is given, between nodes: lowered in a step where nothing else leads to a solution.
   double augmentation_share_ = 1.0;
+  bool opens_by_gaps_ = false;   ///< points between nodes that have penalties: for the rest of a step
   bool rubs_by_shears_ = false;  ///< see CondensedSolution::by_shears
   std::tuple<CondensedState, RaisedPenalties, AdaptedPenalties, bool, std::shared_ptr<const ContactMemory>, Secants>
       remembered_;
@@ -226,6 +229,7 @@ class MixedContact {
   double geometry_change_ = 0.0;
   Eigen::VectorXd start_;               ///< multipliers when the step began
   Eigen::VectorXd rates_;               ///< of multipliers, in the last step that was accepted
+  std::vector<char> began_closed_;      ///< points, when the step began
   bool step_begins_ = false;            ///< and no point has been faced in it
   std::vector<std::size_t> held_back_;  ///< points that may not close yet
   std::unique_ptr<SchurComplement> schur_;

@@ -128,7 +128,9 @@ TEST_CASE("By shares a shear is a share of the limit of friction, whatever the p
   }
 }
 
-TEST_CASE("The limit of friction is that of the multiplier, an overlap or not; of the depth where a penalty presses") {
+TEST_CASE(
+    "The limit of friction is that of the multiplier, an overlap or not; of the depth where a penalty presses on a "
+    "node") {
   ContactLaw law;
   law.friction = 0.5;
   const Vector3d overlapping(-0.2, 0.3, 0.4);
@@ -138,7 +140,25 @@ TEST_CASE("The limit of friction is that of the multiplier, an overlap or not; o
   CHECK(contact_status(law, false, Vector3d(10, 5.1, 0), Vector3d(-0.2, 0, 0)) == ContactStatus::sliding);
   law.penalised = true;
   CHECK(contact_law(law, ContactStatus::sliding, Vector3d(10, 3, 4), overlapping).traction.tail<2>().norm() ==
+        exactly(5.0));
+  law.pointwise = true;
+  CHECK(contact_law(law, ContactStatus::sliding, Vector3d(10, 3, 4), overlapping).traction.tail<2>().norm() ==
         exactly(10.0));
+}
+
+TEST_CASE("Under a penalty a point between nodes that press on it stays closed across a small gap") {
+  ContactLaw law;
+  law.penalised = true;
+  const Vector3d pressed(10, 0, 0), near(0.09, 0, 0), far(0.11, 0, 0);  // the penalty is 100
+  CHECK(contact_status(law, false, pressed, near) != ContactStatus::open);
+  CHECK(contact_law(law, ContactStatus::sliding, pressed, near).traction[0] == exactly(-9.0));
+  CHECK(contact_status(law, false, pressed, far) == ContactStatus::open);
+  CHECK(contact_status(law, false, -pressed, -near) == ContactStatus::open);
+  law.opens_by_gap = true;
+  CHECK(contact_status(law, false, pressed, near) == ContactStatus::open);
+  law.opens_by_gap = false;
+  law.pointwise = true;
+  CHECK(contact_status(law, false, pressed, near) == ContactStatus::open);
 }
 
 TEST_CASE("Statuses: an overlap closes, a pull opens, a shear below the limit sticks") {

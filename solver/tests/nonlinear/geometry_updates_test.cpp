@@ -47,6 +47,16 @@ TEST_CASE("Updates of the geometry end when it moves by less than a share of the
   CHECK(updates.settled(corner.at(2.03), corner.at(2.039)));
 }
 
+TEST_CASE("A move counts as a share of the displacement that the step had before it") {
+  MovingCorner corner;
+  corner.contact.geometry_tolerance = 0.4;
+  const Eigen::VectorXd start = corner.at(1.0);
+  GeometryUpdates updates(corner.contact, *corner.model.mesh, corner.dofs, start);
+  CHECK_FALSE(updates.settled(corner.at(2.0), corner.at(2.5)));  // 0.5 of it; a third of the present one
+  CHECK(updates.settled(corner.at(2.5), corner.at(2.0)));
+  CHECK(geometry_change(*corner.model.mesh, corner.dofs, start, start, corner.at(2.0)).share == exactly(1.0));
+}
+
 TEST_CASE("Nothing is asked of a geometry that moves by the rounding of its places") {
   MovingCorner corner;
   corner.contact.geometry_tolerance = 1e-12;
