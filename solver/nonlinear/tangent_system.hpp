@@ -53,6 +53,8 @@ class TangentSystem {
   /// T^T K d with the tangent at u: the forces on the reduced unknowns that a displacement d of all degrees of freedom
   /// would cause.
   Eigen::VectorXd reduced_forces(const Eigen::VectorXd& u, const Eigen::VectorXd& d, TangentKind kind) const;
+  /// K d of each column, on all degrees of freedom.
+  Eigen::MatrixXd forces(const Eigen::VectorXd& u, const Eigen::MatrixXd& d, TangentKind kind) const;
 
   /// From now on springs are added where nothing holds the bodies, instead of an error: whoever calls this takes them
   /// off again.
