@@ -176,6 +176,7 @@ class StaticRun {
   int accepted_ = 0;       ///< steps
   double last_instant_ = 0.0;
   double last_duration_ = 0.0;  ///< of the last accepted step; 0 before
+  bool may_cut_ = false;        ///< whether the step at hand may be cut where it fails
   const StepPlan* plan_ = nullptr;
   std::optional<StepWatch> watch_;
 };
