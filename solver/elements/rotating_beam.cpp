@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <unsupported/Eigen/AutoDiff>
 
 #include "solver/elements/beam_points.hpp"
+#include "solver/elements/beam_stiffness.hpp"
 #include "solver/elements/geometric_stiffness.hpp"
 #include "solver/elements/slender.hpp"
 #include "solver/error.hpp"
@@ -19,15 +21,29 @@ constexpr int reported_count = 6 * beam_point_count;
 
 constexpr int roll_variable = 1;
 using Vector12d = Eigen::Matrix<double, 12, 1>;
+/// What the axes follow: the displacement of the second node relative to the first in the step, and the mean of the
+/// whole rotations of both.
+using Motion = Eigen::Matrix<double, 6, 1>;
+using Derivative = Eigen::AutoDiffScalar<Motion>;
+
+template <class Scalar>
+using Vector3 = Eigen::Matrix<Scalar, 3, 1>;
+template <class Scalar>
+using Axes = Eigen::Matrix<Scalar, 3, 3>;
 
 /// The first direction along the chord, the second what is left of the old one across it, turned about the chord by
 /// `rotation`.
-Eigen::Matrix3d carried_axes(const Eigen::Matrix3d& before, const Eigen::Vector3d& along,
-                             const Eigen::Vector3d& rotation) {
-  const Eigen::Vector3d x = along.normalized(), old = before.row(1);
-  const Eigen::Vector3d y = (old - old.dot(x) * x).normalized(), z = x.cross(y);
-  const double twist = rotation.dot(x), c = std::cos(twist), s = std::sin(twist);
-  Eigen::Matrix3d axes;
+template <class Scalar>
+Axes<Scalar> carried_axes(const Eigen::Matrix3d& before, const Vector3<Scalar>& along, const Scalar& length,
+                          const Vector3<Scalar>& rotation) {
+  using std::cos, std::sin, std::sqrt;
+  const Vector3<Scalar> x = along / length;
+  const Vector3<Scalar> old = before.row(1).transpose().template cast<Scalar>();
+  const Vector3<Scalar> across = old - old.dot(x) * x;
+  const Vector3<Scalar> y = across / sqrt(across.dot(across)), z = x.cross(y);
+  const Scalar twist = rotation.dot(x);
+  const Scalar c = cos(twist), s = sin(twist);
+  Axes<Scalar> axes;
   axes.row(0) = x;
   axes.row(1) = c * y + s * z;
   axes.row(2) = c * z - s * y;
@@ -43,14 +59,30 @@ struct BeamPast {
   double elongation = 0.0;              ///< left by the turns of all steps
 };
 
+template <class Scalar>
+struct BeamGeometry {
+  Axes<Scalar> axes;
+  Scalar length;
+};
+
+template <class Scalar>
+BeamGeometry<Scalar> geometry(const BeamPast& past, const Eigen::Matrix<Scalar, 6, 1>& motion) {
+  using std::sqrt;
+  const Vector3<Scalar> along = past.along.template cast<Scalar>() + motion.template head<3>();
+  const Vector3<Scalar> rotation = motion.template tail<3>();
+  const Scalar length = sqrt(along.dot(along));
+  return {carried_axes<Scalar>(level_axes(past.along, past.roll), along, length, rotation), length};
+}
+
 /// By how much axes are rolled against level_axes().
 double roll_of(const Eigen::Matrix3d& axes) {
   const Eigen::Matrix3d level = level_axes(axes.row(0).transpose());
   return std::atan2(axes.row(1).dot(level.row(2)), axes.row(1).dot(level.row(1)));
 }
 
-Vector12d turned(const Eigen::Matrix3d& axes, const Vector12d& parts) {
-  Vector12d result;
+template <class Scalar, class Vector>
+Eigen::Matrix<Scalar, 12, 1> turned(const Axes<Scalar>& axes, const Vector& parts) {
+  Eigen::Matrix<Scalar, 12, 1> result;
   for (int part = 0; part < 12; part += 3) result.template segment<3>(part) = axes * parts.template segment<3>(part);
   return result;
 }
@@ -75,7 +107,34 @@ class RotatingBeam final : public ElementBlock {
                      double* values) const override {
     require_no_strains(state);
     for (int element = 0; element < map_.element_count(); ++element) {
-      map_.add(element, tangent(element, u).data(), column_starts, values);
+      const BeamMatrix k = tangent(element, u);
+      const BeamMatrix symmetric = 0.5 * (k + k.transpose());
+      map_.add(element, symmetric.data(), column_starts, values);
+    }
+  }
+  bool is_symmetric() const override { return false; }
+  void add_symmetric_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                               double* values) const override {
+    require_no_strains(state);
+    for (int element = 0; element < map_.element_count(); ++element)
+      map_.add(element, plain_tangent(element, u).data(), column_starts, values);
+  }
+  void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                              double* values) const override {
+    add_symmetric_stiffness(u, state, column_starts, values);
+  }
+  void add_skew_stiffness(const Eigen::VectorXd& u, const VariableState&,
+                          std::vector<Eigen::Triplet<double>>& entries) const override {
+    std::array<int, 12> dofs;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      map_.dofs(element, dofs.data());
+      const BeamMatrix k = tangent(element, u);
+      for (int i = 0; i < 12; ++i) {
+        for (int j = 0; j < 12; ++j) {
+          const int row = dofs[static_cast<std::size_t>(i)], column = dofs[static_cast<std::size_t>(j)];
+          if (row > column) entries.emplace_back(row, column, 0.5 * (k(i, j) - k(j, i)));
+        }
+      }
     }
   }
 
@@ -83,13 +142,14 @@ class RotatingBeam final : public ElementBlock {
     require_no_strains(state);
     for (int element = 0; element < map_.element_count(); ++element) {
       const Trial now = trial(element, u);
-      add(element, turned(now.axes.transpose(), now.force), forces);
+      add(element, turned<double>(now.axes.transpose(), now.force), forces);
     }
   }
   void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported,
                               ForceSum forces) const override {
     for (int element = 0; element < map_.element_count(); ++element)
-      add(element, turned(trial(element, u).axes.transpose(), end_forces(reported.data() + reported_count * element)),
+      add(element,
+          turned<double>(trial(element, u).axes.transpose(), end_forces(reported.data() + reported_count * element)),
           forces);
   }
 
@@ -165,8 +225,7 @@ class RotatingBeam final : public ElementBlock {
   };
   struct Trial {
     Eigen::Matrix3d axes;
-    double length;
-    Vector12d force;  ///< on both ends, in own axes
+    Vector12d force;
     double elongation;
   };
 
@@ -203,8 +262,7 @@ class RotatingBeam final : public ElementBlock {
     first.roll = members_[static_cast<std::size_t>(element)].section->roll;
     Vector12d step = unknowns(element, u);
     step.segment<3>(6) -= step.head<3>();
-    return roll_of(
-        carried_axes(level_axes(first.along, first.roll), first.along + step.segment<3>(6), mean_rotation(step)));
+    return roll_of(geometry<double>(first, motion_of(first, step)).axes);
   }
 
   /// `roll`: of the axes as the forces have them.
@@ -237,31 +295,74 @@ class RotatingBeam final : public ElementBlock {
     return 0.5 * (displacement.segment<3>(3) + displacement.segment<3>(9));
   }
 
+  static Motion motion_of(const BeamPast& past, const Vector12d& step) {
+    Motion motion;
+    motion << step.segment<3>(6), mean_rotation(past.displacement + step);
+    return motion;
+  }
+
   Trial trial(int element, const Eigen::VectorXd& u) const {
     const BeamPast& past = past_[static_cast<std::size_t>(element)];
     const Member& own = members_[static_cast<std::size_t>(element)];
     const Vector12d step = increment(element, u);
-    const Eigen::Vector3d along = past.along + step.segment<3>(6);
-    const double length = along.norm();
-    const Eigen::Matrix3d axes =
-        carried_axes(level_axes(past.along, past.roll), along, mean_rotation(past.displacement + step));
-    const BeamMatrix stiffness = uniform_beam<double>(*own.section, own.moduli, length, shear_);
-    return {axes, length, past.force + stiffness * turned(axes, step),
-            past.elongation + 1.0 - axes.row(0).dot(past.along.normalized())};
+    const auto now = geometry<double>(past, motion_of(past, step));
+    const Vector12d force = past.force + uniform_beam<double>(*own.section, own.moduli, now.length, shear_) *
+                                             turned<double>(now.axes, step);
+    const double turn = now.axes.row(0).dot(past.along.normalized());
+    return {now.axes, force, past.elongation + 1.0 - turn};
   }
 
-  /// The linear stiffness at the present length and what the present end forces add, in the present axes. Torsion
-  /// counts for nothing, nor does how axes and length change under the increments of the step: symmetric, and
-  /// iterations converge linearly.
-  BeamMatrix tangent(int element, const Eigen::VectorXd& u) const {
+  /// Axes and stiffness in them, with their derivatives by the motion.
+  struct Turning {
+    Axes<Derivative> axes;
+    BeamMatrixOf<Derivative> stiffness;
+  };
+
+  Turning turning(int element, const Eigen::VectorXd& u) const {
     const Member& own = members_[static_cast<std::size_t>(element)];
-    const Trial now = trial(element, u);
-    BeamMatrix k = uniform_beam<double>(*own.section, own.moduli, now.length, shear_) +
-                   beam_geometric_stiffness(*own.section, now.length,
-                                            {section_forces(now.force, 0), section_forces(now.force, 6)});
+    const BeamPast& past = past_[static_cast<std::size_t>(element)];
+    const Motion motion = motion_of(past, increment(element, u));
+    Eigen::Matrix<Derivative, 6, 1> moving;
+    for (int i = 0; i < 6; ++i) moving[i] = Derivative(motion[i], 6, i);
+    const auto now = geometry<Derivative>(past, moving);
+    return {now.axes, uniform_beam<Derivative>(*own.section, own.moduli, now.length, shear_)};
+  }
+
+  /// By the increments at hand, and by what they do to the axes and the length.
+  BeamMatrix tangent(int element, const Eigen::VectorXd& u) const {
+    const Turning now = turning(element, u);
+    const Eigen::Matrix<Derivative, 12, 1> local =
+        past_[static_cast<std::size_t>(element)].force.cast<Derivative>() +
+        now.stiffness * turned<Derivative>(now.axes, increment(element, u).cast<Derivative>().eval());
+    const Eigen::Matrix<Derivative, 12, 1> global = turned<Derivative>(now.axes.transpose(), local);
+    return of_increments(now.stiffness, now.axes) + of_motion(global);
+  }
+
+  static BeamMatrix of_increments(const BeamMatrixOf<Derivative>& local, const Axes<Derivative>& axes) {
+    Eigen::Matrix3d turn;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) turn(i, j) = axes(i, j).value();
+    BeamMatrix k;
+    for (int i = 0; i < 12; ++i)
+      for (int j = 0; j < 12; ++j) k(i, j) = local(i, j).value();
     for (int i = 0; i < 12; i += 3)
-      for (int j = 0; j < 12; j += 3)
-        k.block<3, 3>(i, j) = (now.axes.transpose() * k.block<3, 3>(i, j) * now.axes).eval();
+      for (int j = 0; j < 12; j += 3) k.block<3, 3>(i, j) = (turn.transpose() * k.block<3, 3>(i, j) * turn).eval();
+    return k;
+  }
+
+  /// The linear stiffness at the present length and what the present end forces add, in the present axes: that of
+  /// Code_Aster 17.3. Torsion counts for nothing in it, nor does how axes and length change under the increments of the
+  /// step, so that iterations converge linearly.
+  BeamMatrix plain_tangent(int element, const Eigen::VectorXd& u) const {
+    const Member& own = members_[static_cast<std::size_t>(element)];
+    const BeamPast& past = past_[static_cast<std::size_t>(element)];
+    const Eigen::Matrix3d axes = trial(element, u).axes;
+    const Vector12d force = trial(element, u).force;
+    const double length = (past.along + increment(element, u).segment<3>(6)).norm();
+    BeamMatrix k = uniform_beam<double>(*own.section, own.moduli, length, shear_) +
+                   beam_geometric_stiffness(*own.section, length, {section_forces(force, 0), section_forces(force, 6)});
+    for (int i = 0; i < 12; i += 3)
+      for (int j = 0; j < 12; j += 3) k.block<3, 3>(i, j) = (axes.transpose() * k.block<3, 3>(i, j) * axes).eval();
     return k;
   }
 
@@ -269,6 +370,17 @@ class RotatingBeam final : public ElementBlock {
   static SectionForces section_forces(const Vector12d& ends, int first) {
     const Eigen::Matrix<double, 6, 1> f = (first == 0 ? -1.0 : 1.0) * ends.segment<6>(first);
     return {.n = f[0], .vy = f[1], .vz = f[2], .mfy = f[4], .mfz = f[5]};
+  }
+
+  static BeamMatrix of_motion(const Eigen::Matrix<Derivative, 12, 1>& force) {
+    BeamMatrix k = BeamMatrix::Zero();
+    for (int i = 0; i < 12; ++i) {
+      const Motion by = force[i].derivatives();
+      k.block<1, 3>(i, 6) = by.head<3>().transpose();
+      k.block<1, 3>(i, 0) = -by.head<3>().transpose();
+      k.block<1, 3>(i, 3) = k.block<1, 3>(i, 9) = 0.5 * by.tail<3>().transpose();
+    }
+    return k;
   }
 
   /// From section forces at the points, those of the part beyond upon the part before.

@@ -67,6 +67,11 @@ class TangentSystem {
   void follow(const FollowerForces& forces) { followers_ = &forces; }
   /// From now on a symmetric stiffness stands for the tangent, as contact needs one: iterations correct the rest.
   void stay_symmetric() { stays_symmetric_ = true; }
+  /// No longer: the tangent is the derivative of the forces.
+  void take_derivative() {
+    stays_symmetric_ = false;
+    forget();
+  }
   /// Whether the tangent is the same for every displacement.
   bool is_constant() const { return assembler_.is_linear() && followers_ == nullptr; }
 
