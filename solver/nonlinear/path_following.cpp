@@ -294,13 +294,12 @@ double PathFollowing::chosen(const std::vector<double>& found, const Correction&
   return taken;
 }
 
-/// The smaller, the better.
+/// The smaller, the better; of equals the larger intensity. Without a step before there is no angle, and all are equal.
 double PathFollowing::cost(double intensity, const Correction& change, const DrivenLoads& loads, const VectorXd& u) {
   if (control_.choice == PathChoice::smallest_residual)
     return residual_or_infinity(intensity, loads, u + change.constant + intensity * change.linear);
-  if (control_.choice == PathChoice::smallest_increment || !knows_direction())
-    return increment(intensity, change, u).norm();
-  return -advance(intensity, change, u);
+  if (control_.choice == PathChoice::smallest_increment) return increment(intensity, change, u).norm();
+  return knows_direction() ? -advance(intensity, change, u) : 0.0;
 }
 
 VectorXd PathFollowing::increment(double intensity, const Correction& change, const VectorXd& u) const {
