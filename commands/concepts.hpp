@@ -115,6 +115,9 @@ struct ResultConcept : ConceptData {
   solver::StaticProblem problem;      ///< of the steps after the earlier phases
   std::vector<EarlierPhase> earlier;  ///< in order
 
+  /// MODELE, CHAMPMAT, CARAELEM: the numbers of these concepts in the file, eight hexadecimal digits.
+  std::map<std::string, std::string> sources;
+
   /// What a step was computed from.
   const solver::StaticProblem& problem_of(const solver::ResultStep& step) const;
   std::optional<StepTable> observations;  ///< what OBSERVATION followed through the steps

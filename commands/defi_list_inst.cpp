@@ -86,6 +86,17 @@ void read_threshold(const Keywords& given, solver::AdaptationRule& rule) {
   if (given.has("VALE_I")) rule.few_iterations = static_cast<int>(given.integer("VALE_I"));
 }
 
+// The plastic strain that a step adds, as Code_Aster 17.3 has it.
+void read_extrapolation(solver::AdaptationRule& rule) {
+  solver::WatchedIncrement plastic_strain;
+  plastic_strain.field = "VARI_ELGA";
+  plastic_strain.component = "V1";
+  plastic_strain.wanted = 1e-3;
+  rule.increment = plastic_strain;
+  rule.least_factor = 0.5;
+  rule.most_factor = 1.2;
+}
+
 solver::AdaptationRule adaptation_rule(const Call& call, const Keywords& given) {
   solver::AdaptationRule rule;
   rule.always = given.text("EVENEMENT") == "TOUT_INST";
@@ -93,6 +104,8 @@ solver::AdaptationRule adaptation_rule(const Call& call, const Keywords& given) 
   const std::string mode = given.text("MODE_CALCUL_TPLUS");
   if (mode == "DELTA_GRANDEUR")
     rule.increment = watched_increment(call, given);
+  else if (mode == "IMPLEX")
+    read_extrapolation(rule);
   else if (mode == "ITER_NEWTON")
     rule.wanted_iterations = static_cast<int>(given.integer("NB_ITER_NEWTON_REF"));
   else

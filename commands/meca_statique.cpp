@@ -62,6 +62,7 @@ Product meca_statique(const Call& call, Context& context) {
   auto product = call.reuse ? to_go_on_with(call) : std::make_shared<ResultConcept>();
   product->problem = static_problem(call);
   product->result.model = product->problem.model;
+  product->sources = numbered_sources(call);
   const solver::LinearStaticOptions options = options_of(call);
   context.console.progress(fmt::format("MECA_STATIQUE {}", call.result->name));
   const std::vector<double> asked = instants(call), wanted = new_instants(asked, product->result);

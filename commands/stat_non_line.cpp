@@ -271,6 +271,7 @@ Scene scene_of(const Call& call) {
   auto product = call.reuse ? continued(call, initial) : std::make_shared<ResultConcept>();
   product->problem = problem_of(call, initial);
   product->result.model = product->problem.model;
+  product->sources = numbered_sources(call);
   check_driven(call, product->problem);
   complete_variables(product->problem, initial.behaviours.get());
   check_initial_stresses(call, product->problem);

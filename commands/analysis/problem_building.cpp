@@ -218,6 +218,15 @@ solver::StaticProblem problem_of_result(const Call& call, const ResultConcept& s
   return completed(call, source, step != nullptr ? source.problem_of(*step) : source.problem);
 }
 
+std::map<std::string, std::string> numbered_sources(const Call& call) {
+  constexpr std::pair<const char*, const char*> names[] = {
+      {"MODELE", "MODELE"}, {"CHAM_MATER", "CHAMPMAT"}, {"CARA_ELEM", "CARAELEM"}};
+  std::map<std::string, std::string> sources;
+  for (const auto& [keyword, name] : names)
+    if (call.has(keyword)) sources[name] = fmt::format("{:08x}", call.concept_of(keyword)->id + 1);
+  return sources;
+}
+
 std::shared_ptr<ResultConcept> to_go_on_with(const Call& call, std::optional<int> last_order) {
   auto product = std::make_shared<ResultConcept>(interpreter::data_of<ResultConcept>(call.result, "reuse"));
   auto& steps = product->result.steps;

@@ -28,6 +28,9 @@ void take_loads(const interpreter::Keywords& keywords, solver::StaticProblem& pr
 solver::StaticProblem problem_of_result(const interpreter::Call& call, const ResultConcept& source,
                                         const solver::ResultStep* step = nullptr);
 
+/// What ResultConcept::sources is to say of a command with MODELE, CHAM_MATER and CARA_ELEM.
+std::map<std::string, std::string> numbered_sources(const interpreter::Call& call);
+
 /// The result to go on with (reuse=), its steps up to `last_order` if it is given: what they were computed from is kept
 /// as an earlier phase.
 std::shared_ptr<ResultConcept> to_go_on_with(const interpreter::Call& call, std::optional<int> last_order = {});

@@ -39,7 +39,8 @@ Value of_steps(const solver::Result& result, const std::function<Value(const sol
   return Value::list(std::move(values));
 }
 
-std::shared_ptr<Dict> access_variables(const solver::Result& result) {
+std::shared_ptr<Dict> access_variables(const ResultConcept& data) {
+  const solver::Result& result = data.result;
   auto lists = std::make_shared<Dict>();
   lists->set(Value("NUME_ORDRE"),
              of_steps(result, [](const auto& step) { return Value(static_cast<std::int64_t>(step.order)); }));
@@ -48,8 +49,11 @@ std::shared_ptr<Dict> access_variables(const solver::Result& result) {
 }
 
 /// The access variables and the parameters, None where a step has one not.
-std::shared_ptr<Dict> access_parameters(const solver::Result& result) {
-  std::shared_ptr<Dict> lists = access_variables(result);
+std::shared_ptr<Dict> access_parameters(const ResultConcept& data) {
+  const solver::Result& result = data.result;
+  std::shared_ptr<Dict> lists = access_variables(data);
+  for (const auto& [name, number] : data.sources)
+    lists->set(Value(name), of_steps(result, [&number = number](const auto&) { return Value(number); }));
   for (const solver::ResultStep& described : result.steps)
     for (const auto& entry : described.parameters) {
       const std::string& name = entry.first;
@@ -63,7 +67,8 @@ std::shared_ptr<Dict> access_parameters(const solver::Result& result) {
 }
 
 /// The order numbers of the steps that have each field.
-std::shared_ptr<Dict> fields(const solver::Result& result) {
+std::shared_ptr<Dict> fields(const ResultConcept& data) {
+  const solver::Result& result = data.result;
   std::map<std::string, std::vector<Value>, std::less<>> orders;
   for (const solver::ResultStep& step : result.steps)
     for (const auto& field : step.fields) orders[field.first].emplace_back(static_cast<std::int64_t>(step.order));
@@ -143,12 +148,12 @@ const std::map<std::string, ResultMethod, std::less<>>& step_methods() {
        {{"value"},
         [](const ResultConcept& data, const Arguments& given) { return Value(step_at(data.result, given).instant); }}},
       {"getFieldsNames",
-       {{}, [](const ResultConcept& data, const Arguments&) { return Value::list(fields(data.result)->keys()); }}},
+       {{}, [](const ResultConcept& data, const Arguments&) { return Value::list(fields(data)->keys()); }}},
       {"getField", {{"name", "value", "para", "crit", "prec"}, field_handle}}};
   return table;
 }
 
-using ResultLists = std::map<std::string_view, std::shared_ptr<Dict> (*)(const solver::Result&)>;
+using ResultLists = std::map<std::string_view, std::shared_ptr<Dict> (*)(const ResultConcept&)>;
 
 const ResultLists& list_methods() {
   static const ResultLists table = {{"LIST_VARI_ACCES", access_variables},
@@ -185,7 +190,7 @@ Value ResultConcept::method(std::string_view name, const std::vector<Value>& arg
     return found->second.code(*this, MethodArguments(name, arguments, keywords, found->second.parameters));
   const auto list = list_methods().find(name);
   if (list == list_methods().end()) return ConceptData::method(name, arguments, keywords);
-  if (arguments.empty() && keywords.empty()) return Value(list->second(result));
+  if (arguments.empty() && keywords.empty()) return Value(list->second(*this));
   throw DiagnosticError("type-error", std::string(name) + "() takes no arguments", {},
                         "write RESULT." + std::string(name) + "()");
 }

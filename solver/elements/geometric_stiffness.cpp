@@ -10,21 +10,16 @@ namespace {
 
 using Row = Eigen::Matrix<double, 12, 1>;  ///< a quantity by the degrees of freedom of a beam
 
-/// Deflection's slope, rotation and its slope in one plane, by deflection and rotation at both ends.
+/// Slope of the deflection and curvature in one plane, by deflection and rotation at both ends.
 struct PlaneRows {
-  Eigen::Vector4d slope, rotation, curvature;
+  Eigen::Vector4d slope, curvature;
 };
 
-PlaneRows plane_rows(double s, double l, double softening) {
-  const double scale = 1.0 / (1.0 + softening), half = 0.5 * softening;
-  const double first = 6.0 * (s * s - s);
+PlaneRows plane_rows(double s, double l) {
+  const double first = 6.0 * (s * s - s) / l, second = (12.0 * s - 6.0) / (l * l);
   PlaneRows rows;
-  rows.slope << scale / l * (first - softening), scale * (3 * s * s - (4 + softening) * s + 1 + half),
-      -scale / l * (first - softening), scale * (3 * s * s - (2 - softening) * s - half);
-  rows.rotation << scale / l * first, scale * (3 * s * s - (4 + softening) * s + 1 + softening), -scale / l * first,
-      scale * (3 * s * s - (2 - softening) * s);
-  rows.curvature << scale / (l * l) * (12 * s - 6), scale / l * (6 * s - 4 - softening),
-      -scale / (l * l) * (12 * s - 6), scale / l * (6 * s - 2 + softening);
+  rows.slope << first, 3 * s * s - 4 * s + 1, -first, 3 * s * s - 2 * s;
+  rows.curvature << second, (6 * s - 4) / l, -second, (6 * s - 2) / l;
   return rows;
 }
 
@@ -41,19 +36,17 @@ void add_product(BeamMatrix& k, double factor, const Row& a, const Row& b) {
 }
 
 struct BeamRows {
-  Row v_slope, w_slope, torsion, twist, b, b_slope, c, c_slope;
+  Row v_slope, v_curvature, w_slope, w_curvature, torsion, twist;
 };
 
-BeamRows beam_rows(double s, double l, double softening_xy, double softening_xz) {
+BeamRows beam_rows(double s, double l) {
   constexpr std::array<int, 4> in_xy = {1, 5, 7, 11}, in_xz = {2, 4, 8, 10};
-  const PlaneRows xy = plane_rows(s, l, softening_xy), xz = plane_rows(s, l, softening_xz);
+  const PlaneRows plane = plane_rows(s, l);
   BeamRows rows;
-  rows.v_slope = placed(xy.slope, in_xy, 1.0, 1.0);
-  rows.c = placed(xy.rotation, in_xy, 1.0, 1.0);
-  rows.c_slope = placed(xy.curvature, in_xy, 1.0, 1.0);
-  rows.w_slope = placed(xz.slope, in_xz, 1.0, -1.0);
-  rows.b = placed(xz.rotation, in_xz, -1.0, 1.0);
-  rows.b_slope = placed(xz.curvature, in_xz, -1.0, 1.0);
+  rows.v_slope = placed(plane.slope, in_xy, 1.0, 1.0);
+  rows.v_curvature = placed(plane.curvature, in_xy, 1.0, 1.0);
+  rows.w_slope = placed(plane.slope, in_xz, 1.0, -1.0);
+  rows.w_curvature = placed(plane.curvature, in_xz, 1.0, -1.0);
   rows.torsion = (1.0 - s) * Row::Unit(3) + s * Row::Unit(9);
   rows.twist = (Row::Unit(9) - Row::Unit(3)) / l;
   return rows;
@@ -89,38 +82,38 @@ void add_point(const NodeColumns& places, const CellSample& sample, const Eigen:
 
 }  // namespace
 
-BeamMatrix beam_geometric_stiffness(const BeamSection& section, const IsotropicModuli& material, double length,
-                                    bool shear, const std::array<SectionForces, 2>& ends) {
-  const double shear_modulus = material.young / (2 * (1 + material.poisson));
-  const double scale = shear ? 12 * material.young / (shear_modulus * section.area * length * length) : 0.0;
-  const double softening_xy = scale * section.inertia_z * section.shear_y,
-               softening_xz = scale * section.inertia_y * section.shear_z;
+BeamMatrix beam_geometric_stiffness(const BeamSection& section, double length,
+                                    const std::array<SectionForces, 2>& ends) {
   const double polar = (section.inertia_y + section.inertia_z) / section.area;
   BeamMatrix k = BeamMatrix::Zero();
-  // Polynomials of degree 5 at most: three points of Gauss are exact.
+  // Polynomials of degree 4 at most: three points of Gauss are exact.
   const double reach = std::sqrt(0.6);
   constexpr std::array<double, 3> weights = {5.0 / 18.0, 8.0 / 18.0, 5.0 / 18.0};
   for (int g = 0; g < 3; ++g) {
     const double s = 0.5 * (1.0 + (g - 1) * reach);
-    const BeamRows at = beam_rows(s, length, softening_xy, softening_xz);
+    const BeamRows at = beam_rows(s, length);
     const auto between = [&](double SectionForces::*part) { return (1.0 - s) * ends[0].*part + s * ends[1].*part; };
     const double w = weights[static_cast<std::size_t>(g)] * length;
     const double n = between(&SectionForces::n);
     add_product(k, w * n, at.v_slope, at.v_slope);
     add_product(k, w * n, at.w_slope, at.w_slope);
     add_product(k, w * n * polar, at.twist, at.twist);
-    add_product(k, -2.0 * w * between(&SectionForces::mfy), at.v_slope, at.twist);
-    add_product(k, -2.0 * w * between(&SectionForces::mfz), at.w_slope, at.twist);
-    add_product(k, 2.0 * w * between(&SectionForces::vy), at.w_slope, at.torsion);
-    add_product(k, -2.0 * w * between(&SectionForces::vz), at.v_slope, at.torsion);
-    add_product(k, w * between(&SectionForces::mt), at.c, at.b_slope);
-    add_product(k, -w * between(&SectionForces::mt), at.b, at.c_slope);
+    add_product(k, 2.0 * w * between(&SectionForces::mfy), at.torsion, at.v_curvature);
+    add_product(k, 2.0 * w * between(&SectionForces::mfz), at.torsion, at.w_curvature);
+    add_product(k, w * between(&SectionForces::mt), at.v_slope, -at.w_curvature);
+    add_product(k, w * between(&SectionForces::mt), at.w_slope, at.v_curvature);
   }
+  const auto unbalanced = [&](double shear, double SectionForces::*moment) {
+    return length * shear - (ends[1].*moment - ends[0].*moment);
+  };
+  const Row torsion = Row::Unit(9) - Row::Unit(3);
+  add_product(k, -unbalanced(ends[0].vz, &SectionForces::mfy) / 3.0, torsion, Row::Unit(11) - Row::Unit(5));
+  add_product(k, unbalanced(-ends[0].vy, &SectionForces::mfz) / 3.0, torsion, Row::Unit(10) - Row::Unit(4));
   for (int end = 0; end < 2; ++end) {
     const double sign = end == 0 ? -1.0 : 1.0;
     const SectionForces& own = ends[static_cast<std::size_t>(end)];
-    add_product(k, sign * own.mfy, Row::Unit(6 * end + 3), Row::Unit(6 * end + 5));
-    add_product(k, -sign * own.mfz, Row::Unit(6 * end + 3), Row::Unit(6 * end + 4));
+    add_product(k, -sign * own.mfy, Row::Unit(6 * end + 3), Row::Unit(6 * end + 5));
+    add_product(k, sign * own.mfz, Row::Unit(6 * end + 3), Row::Unit(6 * end + 4));
   }
   return k;
 }

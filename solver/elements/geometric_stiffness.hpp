@@ -16,14 +16,16 @@ struct SectionForces {
   double n = 0.0, vy = 0.0, vz = 0.0, mt = 0.0, mfy = 0.0, mfz = 0.0;
 };
 
-/// In own axes, of a uniform beam with the forces at its ends; moments go linearly between. With v, w, t the
-/// deflections and the torsion of the beam (Euler's or Timoshenko's functions) and b = -w', c = v' where shear does not
-/// count, twice the energy is the integral of
-///     N (v'^2 + w'^2 + (Iy + Iz) / A t'^2) - 2 My v' t' - 2 Mz w' t' + 2 Vy w' t - 2 Vz v' t + Mt (c b' - b c'),
-/// of the section's own displacements, and [t (c My - b Mz)] between the ends, of what rotations have in the second
-/// order, so that end moments are semitangential (J. H. Argyris, P. C. Dunne, D. W. Scharpf, CMAME 14, 1978).
-BeamMatrix beam_geometric_stiffness(const BeamSection& section, const IsotropicModuli& material, double length,
-                                    bool shear, const std::array<SectionForces, 2>& ends);
+/// In own axes, of a uniform beam with the forces at its ends; moments go linearly between. With v and w the
+/// deflections (Euler's functions of displacements and rotations, also where shear gives way: so has it
+/// Code_Aster 17.3) and t the torsion, twice the energy is the integral of
+///     N (v'^2 + w'^2 + (Iy + Iz) / A t'^2) + 2 My t v'' + 2 Mz t w'' + Mt (w' v'' - v' w''),
+/// of the section's own displacements, less [t (v' My + w' Mz)] between the ends: what semitangential moments leave
+/// (J. H. Argyris, P. C. Dunne, D. W. Scharpf, CMAME 14, 1978). In a beam whose length changes from step to step L Vz
+/// is not quite the difference of My between the ends (nor -L Vy that of Mz): what it is more acts between the
+/// differences of torsion and of rotation, as in Code_Aster 17.3.
+BeamMatrix beam_geometric_stiffness(const BeamSection& section, double length,
+                                    const std::array<SectionForces, 2>& ends);
 
 /// Adds that of like continuum cells from the stresses at their points (cells x points x components), as
 /// ElementBlock::stresses() gives them.

@@ -9,6 +9,7 @@
 
 #include "solver/elements/beam_points.hpp"
 #include "solver/elements/beam_stiffness.hpp"
+#include "solver/elements/geometric_stiffness.hpp"
 #include "solver/elements/slender.hpp"
 #include "solver/error.hpp"
 
@@ -112,19 +113,15 @@ class RotatingBeam final : public ElementBlock {
     }
   }
   bool is_symmetric() const override { return false; }
-  /// The forces turn with the axes, but the increments of the step do not: half of what they would do to the axial
-  /// force, mirrored, bends a slender beam beyond all measure.
   void add_symmetric_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                                double* values) const override {
     require_no_strains(state);
-    for (int element = 0; element < map_.element_count(); ++element) {
-      const Turning now = turning(element, u);
-      const Vector12d force = trial(element, u).force;
-      const BeamMatrix turned_forces =
-          of_motion(turned<Derivative>(now.axes.transpose(), force.cast<Derivative>().eval()));
-      const BeamMatrix k = of_increments(now.stiffness, now.axes) + 0.5 * (turned_forces + turned_forces.transpose());
-      map_.add(element, k.data(), column_starts, values);
-    }
+    for (int element = 0; element < map_.element_count(); ++element)
+      map_.add(element, plain_tangent(element, u).data(), column_starts, values);
+  }
+  void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                              double* values) const override {
+    add_symmetric_stiffness(u, state, column_starts, values);
   }
   void add_skew_stiffness(const Eigen::VectorXd& u, const VariableState&,
                           std::vector<Eigen::Triplet<double>>& entries) const override {
@@ -351,6 +348,28 @@ class RotatingBeam final : public ElementBlock {
     for (int i = 0; i < 12; i += 3)
       for (int j = 0; j < 12; j += 3) k.block<3, 3>(i, j) = (turn.transpose() * k.block<3, 3>(i, j) * turn).eval();
     return k;
+  }
+
+  /// The linear stiffness at the present length and what the present end forces add, in the present axes: that of
+  /// Code_Aster 17.3. Torsion counts for nothing in it, nor does how axes and length change under the increments of the
+  /// step, so that iterations converge linearly.
+  BeamMatrix plain_tangent(int element, const Eigen::VectorXd& u) const {
+    const Member& own = members_[static_cast<std::size_t>(element)];
+    const BeamPast& past = past_[static_cast<std::size_t>(element)];
+    const Eigen::Matrix3d axes = trial(element, u).axes;
+    const Vector12d force = trial(element, u).force;
+    const double length = (past.along + increment(element, u).segment<3>(6)).norm();
+    BeamMatrix k = uniform_beam<double>(*own.section, own.moduli, length, shear_) +
+                   beam_geometric_stiffness(*own.section, length, {section_forces(force, 0), section_forces(force, 6)});
+    for (int i = 0; i < 12; i += 3)
+      for (int j = 0; j < 12; j += 3) k.block<3, 3>(i, j) = (axes.transpose() * k.block<3, 3>(i, j) * axes).eval();
+    return k;
+  }
+
+  /// At the end whose part of the end forces begins at `first`.
+  static SectionForces section_forces(const Vector12d& ends, int first) {
+    const Eigen::Matrix<double, 6, 1> f = (first == 0 ? -1.0 : 1.0) * ends.segment<6>(first);
+    return {.n = f[0], .vy = f[1], .vz = f[2], .mfy = f[4], .mfz = f[5]};
   }
 
   static BeamMatrix of_motion(const Eigen::Matrix<Derivative, 12, 1>& force) {

@@ -16,7 +16,8 @@ namespace comma::solver {
 /// the chord by the mean of the whole rotations of both ends, which the next step does not begin with. A turn by an
 /// angle leaves half its square as an elongation: the smaller the steps, the better. So Code_Aster 17.3 does it, as
 /// forces and axes (STRX_ELGA, before that turn) of one and several elements tell to all digits, and ssnl139b; R3.08.09
-/// says of its like that it assumes small steps. Forces act along the present axes, and the tangent is not symmetric.
+/// says of its like that it assumes small steps. Forces act along the present axes, and their derivative is
+/// not symmetric; what stands for it where a symmetric stiffness is asked for is the tangent of Code_Aster 17.3.
 /// Internal variables: zero; the roll of the own axes (see own_axes) in radians; the elongation that the turns of all
 /// steps have left. Throws Error `unsupported` for sections that vary and materials whose properties do, what
 /// make_slender_block() does else.

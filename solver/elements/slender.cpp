@@ -132,11 +132,11 @@ class SlenderBlock final : public ElementBlock {
     }
   }
 
-  void add_geometric_stiffness(std::span<const double> forces, const VariableState& state,
-                               std::span<const int> column_starts, double* values) const override {
+  void add_geometric_stiffness(std::span<const double> forces, const VariableState&, std::span<const int> column_starts,
+                               double* values) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const double* own = forces.data() + static_cast<std::size_t>(element * point_count()) * stress_names().size();
-      const Matrix k = named(element, [&] { return geometric_matrix(element, own, state); });
+      const Matrix k = named(element, [&] { return geometric_matrix(element, own); });
       map_.add(element, k.data(), column_starts, values);
     }
   }
@@ -362,7 +362,7 @@ class SlenderBlock final : public ElementBlock {
   }
 
   /// What the section forces add: `forces` as stresses() gives those of the element.
-  Matrix geometric_matrix(int element, const double* forces, const VariableState& state) const {
+  Matrix geometric_matrix(int element, const double* forces) const {
     const Member& member = members_[element];
     if constexpr (is_beam) {
       if (varies(*member.section) || is_eccentric(*member.section))
@@ -370,9 +370,9 @@ class SlenderBlock final : public ElementBlock {
                     "the stiffness that stresses add is known of beams with a constant section alone whose centre of "
                     "torsion is the centroid");
       const auto section_forces = [](const double* f) { return SectionForces{f[0], f[1], f[2], f[3], f[4], f[5]}; };
-      Matrix k = beam_geometric_stiffness(
-          *member.section, moduli(*member.material, material_point(element, state)), member.segment.length, shear_,
-          {section_forces(forces), section_forces(forces + 6 * (beam_point_count - 1))});
+      Matrix k =
+          beam_geometric_stiffness(*member.section, member.segment.length,
+                                   {section_forces(forces), section_forces(forces + 6 * (beam_point_count - 1))});
       Matrix turn = Matrix::Zero();
       for (int i = 0; i < size; i += 3) turn.template block<3, 3>(i, i) = member.segment.axes;
       return turn.transpose() * k * turn;

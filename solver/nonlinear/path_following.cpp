@@ -26,6 +26,12 @@ constexpr double same_intensity = 1e-12;
 /// 1e-6 of the loads.
 constexpr double same_length = 1e-5;
 
+std::vector<AppliedLoad> relations_of(const StaticProblem& problem) {
+  std::vector<AppliedLoad> loads = problem.loads;
+  loads.insert(loads.end(), problem.driven.begin(), problem.driven.end());
+  return loads;
+}
+
 /// Of one or two.
 double other_of(const std::vector<double>& choice, double taken) {
   return choice.front() == taken ? choice.back() : choice.front();
@@ -48,7 +54,10 @@ PathFollowing::PathFollowing(const StaticProblem& problem, const DofMap& dofs, c
       tangent_(tangent),
       observer_(observer),
       criterion_(options),
-      reference_(reference) {
+      reference_(reference),
+      relations_(control_.choice == PathChoice::smallest_angle ? relations_of(problem) : std::vector<AppliedLoad>()),
+      relation_multipliers_(dofs, relations_) {
+  multipliers_start_ = VectorXd::Zero(relation_multipliers_.size());
   if (control_.measure != PathMeasure::elastic_prediction && control_.measure != PathMeasure::strain)
     number_controlled();
 }
@@ -74,7 +83,8 @@ void PathFollowing::number_controlled() {
     throw Error("unknown-dof", "no node carries a component that the path is to control", "name others");
 }
 
-int PathFollowing::solve(double time, double duration, const DrivenLoads& loads, VectorXd& q, VectorXd& u) {
+int PathFollowing::solve(double time, double duration, const DrivenLoads& loads, bool is_last_resort, VectorXd& q,
+                         VectorXd& u) {
   time_ = time;
   start_ = u;
   variable_forces_ = assembler_.variable_forces(u);
@@ -90,7 +100,9 @@ int PathFollowing::solve(double time, double duration, const DrivenLoads& loads,
   try {
     return iterate(false, duration / control_.scale, loads, q, u);
   } catch (const Error& error) {
-    if (!passed_over_nearest_ || (error.code() != "no-convergence" && error.code() != "integration-failure")) throw;
+    if (!is_last_resort || !passed_over_nearest_ ||
+        (error.code() != "no-convergence" && error.code() != "integration-failure"))
+      throw;
   }
   q = reduced;
   u = start_;
@@ -108,6 +120,7 @@ int PathFollowing::iterate(bool stays, double wanted, const DrivenLoads& loads, 
     if (options_.line_search && iteration > 1) shorten(wanted, loads, u, change);
     intensity_ = chosen(candidates(wanted, change, u), change, loads, u);
     u += change.constant + intensity_ * change.linear;
+    multipliers_ = change.multipliers.constant + intensity_ * change.multipliers.linear;
     q = u(elimination_.kept());
     u = elimination_.transformation() * q + loads.fixed_offset + intensity_ * loads.driven_offset;
     evaluate(intensity_, loads, u);
@@ -128,6 +141,7 @@ int PathFollowing::iterate(bool stays, double wanted, const DrivenLoads& loads, 
 
 void PathFollowing::accept_step(const VectorXd& u) {
   last_step_ = motions(u - start_);
+  multipliers_start_ = multipliers_;
   accepted_ = intensity_;
   criterion_.accept(load_);
   ++steps_;
@@ -150,14 +164,22 @@ PathFollowing::Correction PathFollowing::correction(int iteration, const DrivenL
   if (is_tangent_due(options_.tangent, tangent_, iteration, steps_)) tangent_.refresh(u, kind);
   const VectorXd moved = elimination_.transformation() * q + loads.fixed_offset - u;
   const auto& t = elimination_.transformation();
+  const VectorXd held = iteration == 1 ? assembler_.starting_forces(u) : assembler_.internal_forces(u);
   Eigen::MatrixXd columns(elimination_.reduced_size(), 2);
-  columns.col(0) =
-      t.transpose() * (loads.fixed - (iteration == 1 ? assembler_.starting_forces(u) : assembler_.internal_forces(u)));
+  columns.col(0) = t.transpose() * (loads.fixed - held);
   columns.col(1) = t.transpose() * loads.driven;
   if (!moved.isZero(0.0)) columns.col(0) -= tangent_.reduced_forces(u, moved, kind);
   if (!loads.driven_offset.isZero(0.0)) columns.col(1) -= tangent_.reduced_forces(u, loads.driven_offset, kind);
   if (columns.size()) tangent_.solve(columns);
-  return {t * columns.col(0) + moved, t * columns.col(1) + loads.driven_offset};
+  Correction change{t * columns.col(0) + moved, t * columns.col(1) + loads.driven_offset, {}};
+  if (!relation_multipliers_.empty()) {
+    Eigen::MatrixXd whole(u.size(), 2);
+    whole << change.constant, change.linear;
+    const Eigen::MatrixXd forces = tangent_.forces(u, whole, kind);
+    change.multipliers = {relation_multipliers_.of(forces.col(0) + held - loads.fixed),
+                          relation_multipliers_.of(forces.col(1) - loads.driven)};
+  }
+  return change;
 }
 
 /// Takes the share of the correction at which the residual does no more work on it; each share has an intensity of its
@@ -173,14 +195,14 @@ void PathFollowing::shorten(double wanted, const DrivenLoads& loads, const Vecto
     return full(elimination_.kept());
   };
   const auto work = [&](double share) {
-    change = {share * whole.constant, share * whole.linear};
+    change = {share * whole.constant, share * whole.linear, whole.multipliers};
     intensity_ = chosen(candidates(wanted, change, u), change, loads, u);
     evaluate(intensity_, loads, u + change.constant + intensity_ * change.linear);
     return direction().dot(residual_);
   };
   const double start = direction().dot(residual_);
   const double share = search_line(*options_.line_search, start, work);
-  change = {share * whole.constant, share * whole.linear};
+  change = {share * whole.constant, share * whole.linear, whole.multipliers};
 }
 
 VectorXd PathFollowing::controlled(const VectorXd& u) const {
@@ -272,13 +294,12 @@ double PathFollowing::chosen(const std::vector<double>& found, const Correction&
   return taken;
 }
 
-/// The smaller, the better.
+/// The smaller, the better; of equals the larger intensity. Without a step before there is no angle, and all are equal.
 double PathFollowing::cost(double intensity, const Correction& change, const DrivenLoads& loads, const VectorXd& u) {
   if (control_.choice == PathChoice::smallest_residual)
     return residual_or_infinity(intensity, loads, u + change.constant + intensity * change.linear);
-  if (control_.choice == PathChoice::smallest_increment || !knows_direction())
-    return increment(intensity, change, u).norm();
-  return -advance(intensity, change, u);
+  if (control_.choice == PathChoice::smallest_increment) return increment(intensity, change, u).norm();
+  return knows_direction() ? -advance(intensity, change, u) : 0.0;
 }
 
 VectorXd PathFollowing::increment(double intensity, const Correction& change, const VectorXd& u) const {
@@ -288,9 +309,14 @@ VectorXd PathFollowing::increment(double intensity, const Correction& change, co
 bool PathFollowing::knows_direction() const { return last_step_.size() && !last_step_.isZero(0.0); }
 
 /// How far the increment goes on in the direction of the last step, in units of the last step, for one of length 1.
+/// In that length multipliers count as displacements do.
 double PathFollowing::advance(double intensity, const Correction& change, const VectorXd& u) const {
   const VectorXd own = increment(intensity, change, u);
-  return own.dot(last_step_) / std::max(own.norm(), std::numeric_limits<double>::min());
+  double length = own.norm();
+  if (!relation_multipliers_.empty())
+    length = std::hypot(
+        length, (change.multipliers.constant + intensity * change.multipliers.linear - multipliers_start_).norm());
+  return own.dot(last_step_) / std::max(length, std::numeric_limits<double>::min());
 }
 
 double PathFollowing::best_of(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads,

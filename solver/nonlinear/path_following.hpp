@@ -11,6 +11,7 @@
 
 #include "solver/constraints/elimination.hpp"
 #include "solver/elements/assembler.hpp"
+#include "solver/fields/relation_multipliers.hpp"
 #include "solver/nonlinear/convergence.hpp"
 #include "solver/nonlinear/elastic_prediction.hpp"
 #include "solver/nonlinear/reference_forces.hpp"
@@ -31,8 +32,10 @@ struct DrivenLoads {
 /// An iteration solves K d = R + intensity F for the correction d, which is d0 + intensity d1 with two right-hand sides
 /// and one factor; the measure of the whole increment then gives the intensity (Batoz and Dhatt, International Journal
 /// for Numerical Methods in Engineering 14, 1979; Crisfield, Computers and Structures 13, 1981). Where it leaves two,
-/// and iterations that choose between them in the user's way go to and fro without converging, the step begins again:
-/// the first iteration chooses, and the others stay with the one that is nearest. Without contact and unilateral
+/// and iterations that choose between them in the user's way go to and fro without converging, a step that may not be
+/// cut begins again: the first iteration chooses, and the others stay with the one that is nearest. Where the choice is
+/// by the angle, multipliers of relations count in the length of an increment as displacements do, from zero where the
+/// computation begins: so Code_Aster 17.3 chooses. Without contact and unilateral
 /// conditions.
 class PathFollowing {
  public:
@@ -41,9 +44,11 @@ class PathFollowing {
                 const Elimination& elimination, const NewtonOptions& options, Counters& counters,
                 TangentSystem& tangent, const ReferenceForces& reference, const IterationObserver& observer);
 
-  /// Takes q and u from the beginning of a step to its end, `duration` later in time. Returns the number of iterations.
+  /// Takes q and u from the beginning of a step to its end, `duration` later in time. `is_last_resort`: whether a step
+  /// that fails may begin again. Returns the number of iterations.
   /// Throws Error `no-convergence`, also where no intensity gives the measure asked for, and what the tangent throws.
-  int solve(double time, double duration, const DrivenLoads& loads, Eigen::VectorXd& q, Eigen::VectorXd& u);
+  int solve(double time, double duration, const DrivenLoads& loads, bool is_last_resort, Eigen::VectorXd& q,
+            Eigen::VectorXd& u);
 
   /// The step is accepted at u.
   void accept_step(const Eigen::VectorXd& u);
@@ -58,10 +63,16 @@ class PathFollowing {
   bool has_ended() const { return ended_; }
 
  private:
+  /// Whole multipliers of relations: constant + intensity * linear.
+  struct Multipliers {
+    Eigen::VectorXd constant;
+    Eigen::VectorXd linear;
+  };
   /// Correction of u: constant + intensity * linear.
   struct Correction {
     Eigen::VectorXd constant;
     Eigen::VectorXd linear;
+    Multipliers multipliers;  ///< after it, where the choice is by the angle; else empty
   };
 
   /// Which of the intensities an iteration takes.
@@ -107,6 +118,8 @@ class PathFollowing {
   const IterationObserver& observer_;
   ConvergenceCriterion criterion_;
   const ReferenceForces& reference_;
+  std::vector<AppliedLoad> relations_;
+  RelationMultipliers relation_multipliers_;
   std::unique_ptr<ElasticPrediction> prediction_;
   std::unique_ptr<StrainControl> strains_;
   std::vector<int> controlled_;  ///< degrees of freedom
@@ -117,7 +130,9 @@ class PathFollowing {
   Eigen::VectorXd start_;            ///< u where the step begins
   Eigen::VectorXd variable_forces_;  ///< with which the strains of the command variables push in this step
   Eigen::VectorXd last_step_;        ///< increment of the last accepted step; empty before it
-  Eigen::VectorXd residual_;         ///< reduced
+  Eigen::VectorXd multipliers_;      ///< of relations, as the last correction leaves them
+  Eigen::VectorXd multipliers_start_;
+  Eigen::VectorXd residual_;  ///< reduced
   RowWeights weights_;
   double load_ = 0.0;
   int steps_ = 0;

@@ -32,6 +32,14 @@ std::vector<int> dofs_without_reactions(const std::vector<AppliedLoad>& loads, c
   return result;
 }
 
+bool has_turning_beams(const StaticProblem& problem) {
+  for (std::size_t cell = 0; problem.behaviours && cell < problem.behaviours->size(); ++cell)
+    if ((*problem.behaviours)[cell].kinematics == Kinematics::large_rotations &&
+        is_beam(problem.model->formulations[cell]))
+      return true;
+  return false;
+}
+
 }  // namespace
 
 StaticRun::StaticRun(const StaticProblem& problem, const NewtonOptions& options, Result& result, Counters& counters,
@@ -53,7 +61,9 @@ StaticRun::StaticRun(const StaticProblem& problem, const NewtonOptions& options,
       observer_(observer),
       newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, reference_, support(), observer) {
   if (problem.contact) newton_.use_algorithm(*problem.contact);
-  if (problem.contact || !problem.unilateral.empty()) tangent_.stay_symmetric();
+  const bool has_bounds = problem.contact || !problem.unilateral.empty();
+  takes_plain_tangents_ = !has_bounds && followers_.empty() && has_turning_beams(problem);
+  if (has_bounds || takes_plain_tangents_) tangent_.stay_symmetric();
   if (!followers_.empty()) {
     tangent_.follow(followers_);
     newton_.follow(followers_);
@@ -84,7 +94,7 @@ void StaticRun::run(const StepPlan& plan) {
     const std::optional<int> iterations = try_step(instant, sequence);
     if (!iterations) continue;
     newton_.accept_step();
-    if (tangent_.is_indefinite()) ++counters_.indefinite_solutions;
+    if (tangent_.is_indefinite() && !takes_plain_tangents_) ++counters_.indefinite_solutions;
     if (mixed_) mixed_->accept_step(instant - from);
     if (path_) path_->accept_step(now_.state.u);
     mixed_ ? mixed_->note_doubts(now_.state.u, doubts_) : newton_.note_doubts(now_.state, doubts_);

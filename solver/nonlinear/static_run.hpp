@@ -85,6 +85,7 @@ class StaticRun {
   /// elastic side.
   int solve_from_either_side(double instant, const Progress& before);
   /// Supports so weak that they cost the digits of what contact does stand aside while it is sought.
+  int solve_by_derivative(double instant, const Progress& before, const Error& failure);
   int solve_on_stiffer_supports(double instant, const Progress& before, const Error& failure);
   /// With the solution of the path that was passed over, where the plan says so; nothing where that fails too.
   std::optional<int> solve_the_other_way(double instant, const Progress& before, const Error& failure);
@@ -175,7 +176,9 @@ class StaticRun {
   Eigen::VectorXd speed_;  ///< change of u over time in the last step; empty before the first
   int accepted_ = 0;       ///< steps
   double last_instant_ = 0.0;
-  double last_duration_ = 0.0;  ///< of the last accepted step; 0 before
+  double last_duration_ = 0.0;         ///< of the last accepted step; 0 before
+  bool may_cut_ = false;               ///< whether the step at hand may be cut where it fails
+  bool takes_plain_tangents_ = false;  ///< beams in large rotations have those of Code_Aster 17.3, unless a step fails
   const StepPlan* plan_ = nullptr;
   std::optional<StepWatch> watch_;
 };

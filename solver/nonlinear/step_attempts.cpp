@@ -14,6 +14,7 @@ std::optional<int> StaticRun::try_step(double instant, StepSequence& sequence) {
   const Progress before = now_;
   const std::vector<char> closed_before = closed_points();
   watch_->start_step();
+  may_cut_ = sequence.may_be_cut();
   if (mixed_) mixed_->remember();
   try {
     const int iterations = solve_jointly_or_settled(instant, before, sequence.is_part());
@@ -110,13 +111,26 @@ int StaticRun::solve_from_either_side(double instant, const Progress& before) {
     if (mixed_ && error.code() == "contact-cycling" && tangent_.spring_weak_supports())
       return solve_on_stiffer_supports(instant, before, error);
     if (const auto iterations = solve_the_other_way(instant, before, error)) return *iterations;
+    if (takes_plain_tangents_ && !may_cut_ && is_failure_of_step(error.code()))
+      return solve_by_derivative(instant, before, error);
     const bool may_unload = assembler_.has_memory() && options_.tangent.prediction == TangentKind::tangent;
-    if (!may_unload || !is_failure_of_step(error.code())) throw;
+    if (!may_unload || may_cut_ || path_ || !is_failure_of_step(error.code())) throw;
     take_back(before);
     tell_failure(instant, error, "again from an elastic prediction");
   }
   newton_.predict_with(TangentKind::elastic);
   const OnExit as_before([&] { newton_.predict_with(options_.tangent.prediction); });
+  return solve_and_check(instant);
+}
+
+int StaticRun::solve_by_derivative(double instant, const Progress& before, const Error& failure) {
+  take_back(before);
+  tell_failure(instant, failure, "again with the derivative of the forces of turning beams");
+  tangent_.take_derivative();
+  const OnExit as_before([&] {
+    tangent_.forget();
+    tangent_.stay_symmetric();
+  });
   return solve_and_check(instant);
 }
 

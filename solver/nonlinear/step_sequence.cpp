@@ -15,13 +15,16 @@ namespace {
 constexpr double coincident_instants = 1e-9;
 
 bool is_easy(const AdaptationRule& rule, int usual_iterations, int iterations) {
-  // GE counts from one less on, as LT counts up to one less.
+  // The prediction does not count. GE counts from one less on, as LT counts up to one less.
   const int few = rule.few_iterations.value_or(usual_iterations) - (rule.strict ? 1 : 0);
-  return (iterations <= few) != rule.beyond;
+  return (iterations - 1 <= few) != rule.beyond;
 }
 
 double factor_of(const AdaptationRule& rule, int iterations, double change) {
-  if (rule.increment) return change > 0.0 ? rule.increment->wanted / change : 1.0;
+  if (rule.increment)
+    return change > 0.0 ? std::clamp(rule.increment->wanted / change, rule.least_factor, rule.most_factor)
+           : std::isfinite(rule.most_factor) ? rule.most_factor
+                                             : 1.0;
   if (rule.wanted_iterations) return std::sqrt(static_cast<double>(*rule.wanted_iterations) / (iterations + 1));
   return 1.0 + rule.growth;
 }
@@ -48,9 +51,7 @@ double StepSequence::adapted_target() const {
   return wanted >= wall - coincident_instants * (wall - now_) ? wall : wanted;
 }
 
-double StepSequence::planned_target() const {
-  return plan_.adaptation && pending_.back().depth == 0 ? adapted_target() : pending_.back().instant;
-}
+double StepSequence::planned_target() const { return plan_.adaptation ? adapted_target() : pending_.back().instant; }
 
 double StepSequence::target() const {
   const double planned = planned_target();
@@ -70,19 +71,19 @@ void StepSequence::accept(int iterations, std::span<const double> changes) {
   const double reached = target();
   const double length = reached - now_;
   now_ = reached;
-  const bool whole = pending_.back().depth == 0;
   if (reached >= pending_.back().instant) pending_.pop_back();
   if (!plan_.adaptation) return;
   if (++steps_ >= plan_.adaptation->most_steps && !finished())
     throw Error("too-many-steps",
                 fmt::format("t = {:.6g} is reached after {} steps, the most that are allowed", now_, steps_),
                 "raise NB_PAS_MAXI or PAS_MINI");
-  // A step that an instant of the list made shorter leaves the length as it was planned; the change of a field counts
-  // as it was (ssnp140g).
-  adapt(whole ? length_ : length, iterations, changes);
+  // What follows a step that an instant of the list made shorter adapts from the length of the one before it; the
+  // change of a field counts as it was (Code_Aster 17.3).
+  if (base_ == 0.0 || length >= length_ * (1.0 - coincident_instants)) base_ = length;
+  adapt(iterations, changes);
 }
 
-void StepSequence::adapt(double length, int iterations, std::span<const double> changes) {
+void StepSequence::adapt(int iterations, std::span<const double> changes) {
   const StepAdaptation& adaptation = *plan_.adaptation;
   std::optional<double> factor;
   std::size_t read = 0;
@@ -94,7 +95,7 @@ void StepSequence::adapt(double length, int iterations, std::span<const double> 
     easy_steps_[k] = 0;
     factor = std::min(factor.value_or(std::numeric_limits<double>::infinity()), factor_of(rule, iterations, change));
   }
-  length_ = length;
+  length_ = base_;
   if (factor && !finished() && length_ * *factor < adaptation.shortest)
     throw Error(
         "step-too-short",
@@ -111,17 +112,34 @@ void StepSequence::adapt(double length, int iterations, std::span<const double> 
 
 bool StepSequence::cut() { return plan_.cutting && cut(*plan_.cutting); }
 
-bool StepSequence::cut(const StepCutting& rule, double share) {
-  const double end = target();
-  const int depth = pending_.back().depth;
-  const double first = (end - now_) * (rule.automatic ? share : 1.0 / rule.parts);
+/// Its length; nothing where the step may not be cut.
+std::optional<double> StepSequence::first_part(const StepCutting& rule, double share) const {
+  const double first = (target() - now_) * (rule.automatic ? share : 1.0 / rule.parts);
   const double shortest = std::max(rule.shortest, plan_.adaptation ? plan_.adaptation->shortest : 0.0);
-  if (depth >= (rule.automatic ? automatic_depth : rule.depth) || first < shortest || now_ + first <= now_)
-    return false;
+  if (first < shortest || now_ + first <= now_) return std::nullopt;
+  if (!plan_.adaptation && depth() >= (rule.automatic ? automatic_depth : rule.depth)) return std::nullopt;
+  return first;
+}
+
+bool StepSequence::cut(const StepCutting& rule, double share) {
+  const std::optional<double> first = first_part(rule, share);
+  if (!first) return false;
+  const double end = target();
+  std::ranges::fill(easy_steps_, 0);
+  if (plan_.adaptation) {
+    cut_ends_.push_back(end);
+    length_ = *first;
+    return true;
+  }
+  const int depth = pending_.back().depth;
   if (end >= pending_.back().instant) pending_.pop_back();
   push_parts(rule, end, depth + 1, share);
-  std::ranges::fill(easy_steps_, 0);
   return true;
+}
+
+int StepSequence::depth() const {
+  if (!plan_.adaptation) return pending_.back().depth;
+  return static_cast<int>(std::ranges::count_if(cut_ends_, [&](double end) { return end > now_; }));
 }
 
 void StepSequence::push_parts(const StepCutting& rule, double end, int depth, double share) {

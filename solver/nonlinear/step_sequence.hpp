@@ -11,7 +11,9 @@
 
 namespace comma::solver {
 
-/// A step that fails is cut into equal parts, and a part that fails again, down to a depth (U4.34.03, ECHEC).
+/// A step that fails is cut into equal parts, and a part that fails again, down to a depth (U4.34.03, ECHEC). Where
+/// steps adapt, the first part alone is meant: what follows adapts from its length, and the shortest step is the only
+/// bound (Code_Aster 17.3).
 struct StepCutting {
   int parts = 4;           ///< SUBD_PAS
   int depth = 3;           ///< SUBD_NIVEAU: how often a step and its parts may be cut
@@ -58,12 +60,14 @@ struct StepEvent {
 
 /// By what factor the next step is longer, and when (U4.34.03, an occurrence of ADAPTATION).
 struct AdaptationRule {
-  bool always = false;                        ///< TOUT_INST: after each step; else after some with few iterations
-  std::optional<int> few_iterations;          ///< VALE_I: with at most so many; absent: `usual_iterations`
-  bool strict = false;                        ///< CRIT_COMP LT, GE: with fewer
-  bool beyond = false;                        ///< CRIT_COMP GT, GE: with more instead
-  int in_a_row = 2;                           ///< NB_INCR_SEUIL: in so many steps one after the other
-  double growth = 1.0;                        ///< PCENT_AUGM: longer by this share
+  bool always = false;                ///< TOUT_INST: after each step; else after some with few iterations
+  std::optional<int> few_iterations;  ///< VALE_I: with at most so many; absent: `usual_iterations`
+  bool strict = false;                ///< CRIT_COMP LT, GE: with fewer
+  bool beyond = false;                ///< CRIT_COMP GT, GE: with more instead
+  int in_a_row = 2;                   ///< NB_INCR_SEUIL: in so many steps one after the other
+  double growth = 1.0;                ///< PCENT_AUGM: longer by this share
+  double least_factor = 0.0;          ///< of `increment`
+  double most_factor = std::numeric_limits<double>::infinity();
   std::optional<int> wanted_iterations;       ///< NB_ITER_NEWTON_REF: instead, by sqrt(wanted / (taken + 1))
   std::optional<WatchedIncrement> increment;  ///< DELTA_GRANDEUR: instead, by wanted / largest change in the last
 };
@@ -107,14 +111,17 @@ class StepSequence {
   double target() const;
   /// Whether the next step is a part of one that was cut.
   bool is_part() const { return depth() > 0; }
-  /// How often the step towards the next target has been cut.
-  int depth() const { return pending_.back().depth; }
+  /// How often the step towards the next target has been cut; where steps adapt, how many steps that were cut would
+  /// have ended later.
+  int depth() const;
   /// It has converged, in so many iterations and with such largest changes of the watched fields, one a rule that
   /// watches one. Throws Error `too-many-steps` beyond StepAdaptation::most_steps.
   void accept(int iterations, std::span<const double> changes = {});
   /// It has failed: false when it may not be cut, else the next target is nearer. By the plan's rule, or by another;
   /// `share`: how long the first part of an automatic cut should be.
   bool cut();
+  /// Whether cut() would.
+  bool may_be_cut() const { return plan_.cutting && first_part(*plan_.cutting, 0.5).has_value(); }
   bool cut(const StepCutting& rule, double share = 0.5);
   /// Steps from here on are no longer than these; false where this one is not.
   bool refine(const CollisionSteps& around);
@@ -127,13 +134,16 @@ class StepSequence {
 
   double planned_target() const;
   double adapted_target() const;
+  std::optional<double> first_part(const StepCutting& rule, double share) const;
   void push_parts(const StepCutting& rule, double end, int depth, double share);
-  void adapt(double length, int iterations, std::span<const double> changes);
+  void adapt(int iterations, std::span<const double> changes);
 
   StepPlan plan_;
   double now_;
-  std::vector<Stop> pending_;  ///< the nearest last
-  double length_;              ///< s, of the next adapted step
+  std::vector<Stop> pending_;     ///< the nearest last
+  double length_;                 ///< s, of the next adapted step
+  double base_ = 0.0;             ///< s, of the last step that no instant of the list made shorter
+  std::vector<double> cut_ends_;  ///< s, of adapted steps that were cut
   CollisionSteps around_;
   double fine_until_;            ///< s: no step before it is longer than that of `around_`
   std::vector<int> easy_steps_;  ///< one after the other, by rule

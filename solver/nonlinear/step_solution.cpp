@@ -27,7 +27,7 @@ int StaticRun::solve_step(double time) {
   newton_.start_step(time - last_instant_);
   if (path_) {
     start_ = now_.state.u;
-    return path_->solve(time, time - last_instant_, driven_loads(time), now_.state.reduced, now_.state.u);
+    return path_->solve(time, time - last_instant_, driven_loads(time), !may_cut_, now_.state.reduced, now_.state.u);
   }
   const Eigen::VectorXd external = assembler_.external_forces(problem_.loads, time);
   if (!links_.empty()) turn_links(last_instant_, now_.state);

@@ -115,14 +115,18 @@ SymmetricMatrix TangentSystem::stiffness(const Eigen::VectorXd& u, TangentKind k
 
 Eigen::VectorXd TangentSystem::reduced_forces(const Eigen::VectorXd& u, const Eigen::VectorXd& d,
                                               TangentKind kind) const {
+  return elimination_.transformation().transpose() * forces(u, d, kind);
+}
+
+Eigen::MatrixXd TangentSystem::forces(const Eigen::VectorXd& u, const Eigen::MatrixXd& d, TangentKind kind) const {
   const Stopwatch stopwatch(counters_.assembling);
   const SymmetricMatrix matrix = stiffness(u, kind);
-  Eigen::VectorXd forces = matrix.selfadjointView<Eigen::Lower>() * d;
+  Eigen::MatrixXd forces = matrix.selfadjointView<Eigen::Lower>() * d;
   if (!is_symmetric()) {
     const SkewMatrix lower = skew(u);
     forces += lower * d - lower.transpose() * d;
   }
-  return elimination_.transformation().transpose() * forces;
+  return forces;
 }
 
 double TangentSystem::largest_term(const Eigen::VectorXd& u) const {

@@ -53,6 +53,8 @@ class TangentSystem {
   /// T^T K d with the tangent at u: the forces on the reduced unknowns that a displacement d of all degrees of freedom
   /// would cause.
   Eigen::VectorXd reduced_forces(const Eigen::VectorXd& u, const Eigen::VectorXd& d, TangentKind kind) const;
+  /// K d of each column, on all degrees of freedom.
+  Eigen::MatrixXd forces(const Eigen::VectorXd& u, const Eigen::MatrixXd& d, TangentKind kind) const;
 
   /// From now on springs are added where nothing holds the bodies, instead of an error: whoever calls this takes them
   /// off again.
@@ -65,6 +67,11 @@ class TangentSystem {
   void follow(const FollowerForces& forces) { followers_ = &forces; }
   /// From now on a symmetric stiffness stands for the tangent, as contact needs one: iterations correct the rest.
   void stay_symmetric() { stays_symmetric_ = true; }
+  /// No longer: the tangent is the derivative of the forces.
+  void take_derivative() {
+    stays_symmetric_ = false;
+    forget();
+  }
   /// Whether the tangent is the same for every displacement.
   bool is_constant() const { return assembler_.is_linear() && followers_ == nullptr; }
 

@@ -52,6 +52,33 @@ TEST_CASE("the tangent of a beam in large rotations is the derivative of its for
   }
 }
 
+/// The rows and columns of the second node, the first one held, after two steps: from corrections under six loads.
+TEST_CASE("the symmetric tangent of a beam in large rotations is that of Code_Aster 17.3", "[elements]") {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->dimension = 3;
+  mesh->nodes = {{0, 0, 0}, {2, 1, 0.5}};
+  mesh->add_cell(CellType::seg2, std::array{0, 1});
+  ElementProperties properties;
+  properties.sections[0] = {
+      .area = 0.02, .inertia_y = 3e-5, .inertia_z = 7e-5, .torsion = 2e-5, .shear_y = 1.2, .shear_z = 1.3};
+  const Body body(mesh, std::vector<Formulation>{Formulation::timoshenko_beam}, elastic(71240.0, 0.3), properties);
+  Assembler assembler(body.model, body.materials, body.properties, *body.dofs, &turning);
+  Eigen::VectorXd first = body.zero(), second = body.zero();
+  first.tail<6>() << 0.011, -0.004, 0.013, 0.02, -0.03, 0.05;
+  second.tail<6>() << 0.021, 0.004, -0.013, -0.05, -0.04, 0.07;
+  assembler.accept(first);
+  const SymmetricMatrix lower = assembler.symmetric_stiffness(second);
+  const Eigen::MatrixXd tangent = Eigen::MatrixXd(lower).selfadjointView<Eigen::Lower>();
+  Eigen::Matrix<double, 6, 6> expected;
+  expected << 4.75297051e+02, 2.30977404e+02, 1.12579095e+02, -2.32244850e-01, -8.11272592e-01, 2.85000779e+00,  //
+      2.30977404e+02, 1.25129470e+02, 5.58611989e+01, 1.33546993e+00, 2.30350198e-01, -5.73783710e+00,           //
+      1.12579095e+02, 5.58611989e+01, 3.48158138e+01, -1.78941471e+00, 2.89180762e+00, 1.89465161e-03,           //
+      -2.32244850e-01, 1.33546993e+00, -1.78941471e+00, 2.17309363e+00, -2.60184191e+00, -2.17719234e+00,        //
+      -8.11272592e-01, 2.30350198e-01, 2.89180762e+00, -2.60184191e+00, 5.61757033e+00, -1.00535339e+00,         //
+      2.85000779e+00, -5.73783710e+00, 1.89465147e-03, -2.17719234e+00, -1.00535339e+00, 1.12967855e+01;
+  CHECK((tangent.bottomRightCorner<6, 6>() - expected).cwiseAbs().maxCoeff() <= 1e-6);
+}
+
 TEST_CASE("a beam in large rotations begins as the linear one", "[elements]") {
   const Body body = beam(Formulation::timoshenko_beam);
   const Assembler assembler(body.model, body.materials, body.properties, *body.dofs, &turning);

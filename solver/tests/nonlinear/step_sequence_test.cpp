@@ -97,14 +97,14 @@ TEST_CASE("hard steps make the next ones shorter where that is asked for") {
   plan.adaptation->rules[0].few_iterations = 5;
   plan.adaptation->rules[0].in_a_row = 1;
   plan.adaptation->rules[0].growth = -0.5;
-  CHECK(walk(plan, 5, never) == std::vector<double>{1.0, 2.0});
-  const std::vector<double> hard = walk(plan, 6, [](double now, double) { return now > 1.9; });
+  CHECK(walk(plan, 6, never) == std::vector<double>{1.0, 2.0});
+  const std::vector<double> hard = walk(plan, 7, [](double now, double) { return now > 1.9; });
   REQUIRE(hard.size() > 3);
   CHECK(hard[1] == 1.5);
   CHECK(hard[2] == 1.75);
   StepPlan far({0.0, 1.0, 3.0});  // 1 + 1/2 + 1/4 ... does not get there
   far.adaptation = plan.adaptation;
-  CHECK_THROWS_WITH(walk(far, 6, never), Catch::Contains("the next one has no length"));
+  CHECK_THROWS_WITH(walk(far, 7, never), Catch::Contains("the next one has no length"));
 }
 
 TEST_CASE("easy steps grow, and still meet the instants of the list") {
@@ -127,8 +127,32 @@ TEST_CASE("of several rules for steps the one that makes them shortest counts") 
   // Doubled after the first step; after the second both rules hold.
   CHECK(walk(plan, 3, never) == std::vector<double>{1.0, 3.0, 6.0, 12.0, 20.0});
   // Where none holds steps keep their length.
-  plan.adaptation->usual_iterations = 2;
+  plan.adaptation->usual_iterations = 1;
   CHECK(walk(plan, 3, never).size() == 20);
+}
+
+/// As Code_Aster 17.3 goes on: a step of 0.4 cut in three, two easy parts and then twice as far, past where it was to
+/// end.
+TEST_CASE("where steps adapt the first part of one that was cut alone is meant") {
+  StepPlan plan({0.0, 0.2, 1.0});
+  plan.adaptation = StepAdaptation{};
+  plan.adaptation->shortest = 1e-3;
+  plan.cutting = StepCutting{.parts = 3, .depth = 1};
+  StepSequence sequence(plan);
+  std::vector<double> reached;
+  while (!sequence.finished()) {
+    if (reached.size() == 2 && sequence.target() > 0.7) {
+      CHECK(sequence.target() == exactly(0.8));
+      CHECK(sequence.cut());
+      CHECK(sequence.is_part());
+      CHECK(sequence.may_be_cut());
+    }
+    reached.push_back(sequence.target());
+    sequence.accept(3);
+  }
+  const std::vector<double> expected = {0.2, 0.4, 0.4 + 0.4 / 3.0, 0.4 + 0.8 / 3.0, 0.4 + 1.6 / 3.0, 1.0};
+  REQUIRE(reached.size() == expected.size());
+  for (std::size_t k = 0; k < expected.size(); ++k) CHECK(reached[k] == exactly(expected[k]));
 }
 
 TEST_CASE("steps aim at a number of iterations") {
