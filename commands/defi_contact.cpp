@@ -305,6 +305,7 @@ solver::MixedZone discrete_zone(const Keywords& keywords) {
   zone.penalised = keywords.text("ALGO_CONT") == "PENALISATION";
   if (zone.penalised) zone.augmentation = keywords.real("E_N");
   zone.bilateral = keywords.text("GLISSIERE") == "OUI";
+  if (zone.bilateral) zone.unnoticed_gap = keywords.real("ALARME_JEU");
   if (!keywords.has("COULOMB")) return zone;
   zone.friction = keywords.real("COULOMB");
   zone.friction_penalised = true;

@@ -118,6 +118,13 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
                           zone),
               "put points on the nodes, where both are the same (INTEGRATION='AUTO' on linear faces), or take "
               "ALGO_CONT='STANDARD'"};
+    case solver::DoubtKind::bridged_gap:
+      return {"bridged-gap",
+              fmt::format("GLISSIERE holds the surfaces of zone {} together from the first step on, and pulls node {} "
+                          "across a gap of {:.3g}",
+                          zone, mesh.node_name(doubt.node), doubt.length),
+              "begin where the surfaces touch, or let contact open (GLISSIERE='NON'); ALARME_JEU is the gap from which "
+              "on this is told"};
     case solver::DoubtKind::held_overlap:
       return {"held-overlap",
               fmt::format("conditions on displacements hold slave face {} of zone {} inside the master, {:.3g} deep, "

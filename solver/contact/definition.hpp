@@ -50,9 +50,11 @@ struct MixedZone {
   std::optional<double> largest_depth;  ///< PENE_MAXI, a length: the depth from which on a penalty is adapted; nothing:
                                         ///< a share of the smallest master facet
   InitialContact initial = InitialContact::interpenetrating;  ///< CONTACT_INIT
-  bool bilateral = false;           ///< GLISSIERE: a point that has closed does not open again (see
-                                    ///< ContactDefinition::holds_from_next_step)
-  double friction = 0.0;            ///< COULOMB
+  /// GLISSIERE: a point that has closed does not open again (see ContactDefinition::holds_from_next_step); in the
+  /// discrete formulation all that face the master are closed, across gaps too (Code_Aster 17.3).
+  bool bilateral = false;
+  double unnoticed_gap = 0.0;  ///< ALARME_JEU, a length: of gaps that are closed so, up to which none is worth a doubt
+  double friction = 0.0;       ///< COULOMB
   bool friction_penalised = false;  ///< while it sticks the shear is `friction_penalty` times the slip (E_T); in the
                                     ///< mixed formulation the same of shares of the limit of friction (COEF_PENA_FROT)
   double friction_penalty = 0.0;    ///< a force over a length, or one over a length

@@ -28,6 +28,7 @@ enum class DoubtKind : std::uint8_t {
                          ///< that
   opening_by_gaps,  ///< points between nodes that have penalties open by their gaps, no solution having been found in
                     ///< which pressures of the nodes hold them
+  bridged_gap,      ///< surfaces that are held together from the first on (MixedZone::bilateral) were apart
   held_overlap,     ///< conditions on displacements hold a point inside the master, and a penalty gives it no force
   passed_master,    ///< master nodes between slave points have gone through the slave side
   passed_average,  ///< under local average contact slave nodes are inside the master: patches hold it in the mean alone
@@ -54,7 +55,8 @@ struct ContactDoubt {
   double penalty = 0.0;  ///< the present one; `coarse_gradients`: the tolerance (m)
   double wanted = 0.0;   ///< one that would leave a share of `penalty_goal`
   int cell = -1;         ///< slave face of a held overlap
-  int node = -1;  ///< slave node of a stale geometry or a watched overlap, the node that moves most of a restless one
+  int node = -1;  ///< slave node of a stale geometry, a watched overlap or a bridged gap, the node that moves most of a
+                  ///< restless one
 };
 
 /// The deepest of each kind in each zone.

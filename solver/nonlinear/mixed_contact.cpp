@@ -86,6 +86,7 @@ void MixedContact::face(Positions positions, double time, double margin) {
   hold_back_points();
   for (std::size_t p = 0; p < points().size(); ++p)
     if (problem_.points[p].rows == 0) state_.statuses[p] = ContactStatus::open;
+  close_slides();
   forces_ = multiplier_forces(problem_, state_,
                               rows_.full().rows());  // any would do for the next correction to start from
 }
@@ -192,6 +193,25 @@ void MixedContact::start_statuses(const Eigen::VectorXd& jumps) {
     if (held[p] != 0 || zone.initial == InitialContact::all ||
         (zone.initial == InitialContact::interpenetrating && touches))
       state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
+  }
+}
+
+/// GLISSIERE of the discrete formulation is a condition on all points that face the master.
+void MixedContact::close_slides() {
+  if (definition_.formulation != ContactFormulation::discrete) return;
+  const Eigen::VectorXd now = jumps(reference_);
+  for (std::size_t p = 0; p < points().size(); ++p) {
+    const CondensedPoint& point = problem_.points[p];
+    const MixedZone& zone = definition_.zones[static_cast<std::size_t>(points()[p].zone)].mixed;
+    if (!zone.bilateral || point.rows == 0 || state_.statuses[p] != ContactStatus::open) continue;
+    state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
+    const double gap = now[point.first_row];
+    if (gap > std::max(zone.unnoticed_gap, touching * extent(mesh_, points()[p].cell)))
+      bridged_.push_back({.kind = DoubtKind::bridged_gap,
+                          .zone = points()[p].zone,
+                          .share = gap,
+                          .length = gap,
+                          .node = points()[p].node});
   }
 }
 
@@ -451,6 +471,7 @@ void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) 
                                  augmentation_share_ < 1.0,
                                  opens_by_gaps_};
   comma::solver::note_doubts(solved(u), response, doubts);
+  for (const ContactDoubt& doubt : bridged_) doubts.note(doubt);
 }
 
 void MixedContact::note_loose_bodies(const Eigen::VectorXd& u, ContactDoubts& doubts) const {

@@ -170,6 +170,7 @@ class MixedContact {
   RememberedPoint remembered(std::size_t p) const;
   std::vector<char> held_points();
   void close_nearest(const Eigen::VectorXd& jumps);
+  void close_slides();
   void apply_penalties();
   bool adapts(std::size_t zone) const;
   void share_friction();
@@ -213,6 +214,7 @@ class MixedContact {
   CondensedState state_;
   bool started_ = false;
   std::vector<int> eliminated_;
+  std::vector<ContactDoubt> bridged_;  ///< gaps that points of slides are closed across
   /// Of what is given, between nodes: lowered in a step where nothing else leads to a solution.
   double augmentation_share_ = 1.0;
   bool opens_by_gaps_ = false;   ///< points between nodes that have penalties: for the rest of a step
