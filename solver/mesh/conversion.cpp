@@ -251,6 +251,17 @@ void add_group(Mesh& mesh, const std::string& name, std::vector<int> cells) {
 
 }  // namespace
 
+namespace {
+
+/// Lines before faces before solids: the order in which Code_Aster numbers the nodes that cells get.
+std::vector<int> by_dimension(const Mesh& mesh, std::span<const int> cells) {
+  std::vector<int> result(cells.begin(), cells.end());
+  std::ranges::stable_sort(result, {}, [&](int cell) { return dimension(mesh.cell_types[cell]); });
+  return result;
+}
+
+}  // namespace
+
 Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversion) {
   Mesh result = mesh;
   MiddleNodes middles(result);
@@ -260,7 +271,7 @@ Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversi
     nodes.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
   std::vector<bool> left(mesh.nodes.size(), false);
   int changed = 0;
-  for (const int cell : cells) {
+  for (const int cell : by_dimension(mesh, cells)) {
     const CellType to = target_of(mesh.cell_types[cell], conversion);
     if (to == mesh.cell_types[cell]) continue;
     ++changed;

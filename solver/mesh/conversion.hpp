@@ -21,8 +21,9 @@ enum class Conversion {
 
 /// The mesh with the cells converted; others stay, groups hold the same cells and, as far as they remain, the same
 /// nodes. New nodes are shared by the cells that share an edge or a face: mid-edge nodes halve the edge, middles of
-/// faces and solids lie where the serendipity shape functions of the cell put them, so that its geometry stays. Throws
-/// Error `no-cell` if none of the cells can be converted.
+/// faces and solids lie where the serendipity shape functions of the cell put them, so that its geometry stays. They
+/// are numbered as Code_Aster does: those of lines first, then of faces, then of solids, each in the order of the
+/// cells. Throws Error `no-cell` if none of the cells can be converted.
 Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversion);
 
 /// Cuts quadrangles into TRIA3 that stand in their groups: QUAD4 along the diagonal from the first node to the third;

@@ -77,6 +77,16 @@ TEST_CASE("neighbours share the nodes of their edge, groups keep what they held"
   CHECK_THROWS_AS(converted(pair_of_faces(), Group{0, 1}, Conversion::hexa20_to_27), Error);
 }
 
+TEST_CASE("nodes between others are numbered along lines first, then along faces, then along solids", "[mesh]") {
+  Mesh mesh = single(CellType::hexa8);
+  mesh.add_cell(CellType::quad4, Group{4, 5, 6, 7});
+  mesh.add_cell(CellType::seg2, Group{6, 7});
+  const Mesh larger = converted(mesh, Group{0, 1, 2}, Conversion::to_quadratic);
+  CHECK(larger.cell(2)[2] == 8);
+  CHECK(Group(larger.cell(1).begin() + 4, larger.cell(1).end()) == Group{9, 10, 8, 11});
+  CHECK(larger.cell(0)[8] == 12);
+}
+
 TEST_CASE("the middle of a curved face lies on the face", "[mesh]") {
   Mesh mesh = single(CellType::quad8);
   for (Point& node : mesh.nodes) node[2] = node[0] * node[0];  // a parabolic cylinder, which QUAD8 represents exactly
