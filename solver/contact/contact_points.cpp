@@ -50,7 +50,7 @@ class ZonePoints {
       ContactPoint point = place(cell, type, at);
       if (point.node >= 0 && point.weight == 0.0) {
         take_share(point, type, is_carried(cell, type, point.node, rule));
-        if (zone_.mixed.penalised && has_node_normals() && point.weight > 0.0) leave_without_force(point, at);
+        if (type == CellType::seg2 && zone_.mixed.penalised && has_node_normals()) leave_without_force(point, at);
       }
       if (point.weight == 0.0 || is_nearest_to(point, mesh_, [&](int node) { return excluded_.contains(node); }))
         continue;
