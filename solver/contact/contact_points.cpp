@@ -25,6 +25,8 @@ constexpr double equal_weight = 1e-9;
 constexpr double small_share = 0.1;
 /// This share of it is next to nothing.
 constexpr double least_share = 1e-9;
+/// What Code_Aster 17.3 takes for a radius that vanishes, whatever the unit of length.
+constexpr double radius_on_axis = 1e-7;
 
 class ZonePoints {
  public:
@@ -46,7 +48,10 @@ class ZonePoints {
     const std::vector<FacePoint> rule = face_rule(type, zone_.mixed.rule, zone_.mixed.rule_order);
     for (const FacePoint& at : rule) {
       ContactPoint point = place(cell, type, at);
-      if (point.node >= 0 && point.weight == 0.0) take_share(point, type, is_carried(cell, type, point.node, rule));
+      if (point.node >= 0 && point.weight == 0.0) {
+        take_share(point, type, is_carried(cell, type, point.node, rule));
+        if (type == CellType::seg2 && zone_.mixed.penalised && has_node_normals()) leave_without_force(point, at);
+      }
       if (point.weight == 0.0 || is_nearest_to(point, mesh_, [&](int node) { return excluded_.contains(node); }))
         continue;
       const auto known = merges_ && point.node >= 0 ? at_nodes_.find(point.node) : at_nodes_.end();
@@ -118,6 +123,12 @@ class ZonePoints {
     }
     point.bears_nothing = !carried && type == CellType::seg3 && share < small_share * size;
     point.weight = carried || (point.bears_nothing && zone_.mixed.penalised) ? least_share * size : size;
+  }
+
+  /// A penalty on the axis (Code_Aster 17.3): the weight is that of the rule, so that the node overlaps as it will.
+  void leave_without_force(ContactPoint& point, const FacePoint& at) const {
+    point.weight = at.weight * initial_stretch(mesh_, point.cell, at.xi, false) * radius_on_axis;
+    point.bears_nothing = true;
   }
 
   Vector3d position(const ContactPoint& point) const {

@@ -78,12 +78,12 @@ Vector3d shear_force(const SolvedContact& contact, std::size_t p) {
 
 /// Where the pressure of a node on the axis does not show in its force (bears_nothing), it is that of the face: the
 /// parabola about the axis, a + b r^2, through the other two nodes. With a penalty nothing keeps the node from a little
-/// gap between two that are pressed.
+/// gap between two that are pressed. On faces of two nodes it is that of the penalty (Code_Aster 17.3).
 void show_pressures_on_axis(const SolvedContact& contact, const std::function<double*(int)>& place) {
   for (std::size_t p = 0; p < contact.points().size(); ++p) {
     const ContactPoint& point = contact.points()[p];
-    if (!point.bears_nothing) continue;
     const auto nodes = contact.mesh.cell(point.cell);
+    if (!point.bears_nothing || nodes.size() < 3) continue;
     const double at_middle = place(nodes[2])[0], at_end = place(nodes[0] == point.node ? nodes[1] : nodes[0])[0];
     const bool closed = contact.is_closed(p) || (contact.is_free_of_force(p) && at_end < 0.0);
     if (closed && at_middle < 0.0)

@@ -52,6 +52,27 @@ TEST_CASE("A node on the axis of an axisymmetric surface may not overlap either,
   }
 }
 
+TEST_CASE("Under a penalty a node on the axis weighs what the rule gives it at a radius of 1e-7, whatever the size") {
+  const double size = GENERATE(1.0, 20.0);
+  Scene scene;
+  const auto face = [&](const std::string& name, double height, bool reversed) {
+    const int first = scene.node(name + "a", reversed ? size : 0.0, height);
+    return scene.cell(name, CellType::seg2, {first, scene.node(name + "b", reversed ? 0.0 : size, height)},
+                      Formulation::axisymmetric);
+  };
+  const int master = face("master", 0.0, true), slave = face("slave", 0.1, false);
+  scene.zone({master}, {slave});
+  scene.problem.contact->formulation = ContactFormulation::mixed;
+  scene.problem.contact->zones[0].mixed.penalised = true;
+  std::vector<Eigen::Vector3d> positions;
+  for (const auto& at : scene.mesh->nodes) positions.emplace_back(at[0], at[1], at[2]);
+  const auto points = contact_points(*scene.problem.contact, *scene.problem.model, positions, 0.0);
+  REQUIRE(points.size() == 2);
+  CHECK(points[0].weight == Approx(0.5 * size * 1e-7));
+  CHECK(points[0].bears_nothing);
+  CHECK(points[1].weight == Approx(0.5 * size * size));
+}
+
 TEST_CASE(
     "On a surface that reaches the axis the weights of a rule with points between nodes add up to the integral of the "
     "radius") {
