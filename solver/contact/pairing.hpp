@@ -32,7 +32,8 @@ struct ContactPair {
   std::array<double, max_facet_nodes> weights{};     ///< of the facet's nodes
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit, from master to slave
   Eigen::Vector3d foot = Eigen::Vector3d::Zero();    ///< the place on the facet
-  /// Taken off the gap: of both sides (DIST_ESCL, DIST_MAIT), and what a curved facet rises above the corners that bear.
+  /// Taken off the gap: of both sides (DIST_ESCL, DIST_MAIT), and what a curved facet rises above the corners that
+  /// bear.
   double thickness = 0.0;
   bool kept = false;  ///< the facet is not the nearest, or no longer faced, but the one before (FacedFacet)
 };

@@ -2,9 +2,9 @@
 // U2.04.04).
 //
 // A uniform pressure on such a face pulls at its corners, which unilateral conditions would let go. With each middle
-// node tied to the ends of its edge, forces reach the corners alone, and all of the same sign. Where contact does not open
-// again (GLISSIERE) nothing lets go: no edge is tied, middle nodes make contact as well, and faces are as curved as they
-// are, but it is the corners of the master's that bear (Code_Aster 17.3).
+// node tied to the ends of its edge, forces reach the corners alone, and all of the same sign. Where contact does not
+// open again (GLISSIERE) nothing lets go: no edge is tied, middle nodes make contact as well, and faces are as curved
+// as they are, but it is the corners of the master's that bear (Code_Aster 17.3).
 #pragma once
 
 #include <span>

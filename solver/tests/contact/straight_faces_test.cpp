@@ -109,7 +109,8 @@ TEST_CASE("the corners of an eight-node face make contact, its edges stay straig
   }
 }
 
-TEST_CASE("where contact does not open again, all nodes of an eight-node face make contact, and nothing ties them", "[contact]") {
+TEST_CASE("where contact does not open again, all nodes of an eight-node face make contact, and nothing ties them",
+          "[contact]") {
   TwoBricks bricks;
   bricks.zone.mixed.bilateral = true;
   CHECK(contact_nodes(*bricks.mesh, bricks.zone).size() == 8);
