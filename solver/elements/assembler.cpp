@@ -74,8 +74,7 @@ std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<in
         "give these cells RELATION='ELAS'");
   if (is_discrete) return make_discrete_block(input, std::move(cells));
   const Kinematics kinematics = input.behaviour_of(cells.front()).kinematics;
-  if (kinematics == Kinematics::large_rotations && is_beam(formulation))
-    return make_rotating_beam_block(input, std::move(cells));
+  if (is_rotating_beam(formulation, kinematics)) return make_rotating_beam_block(input, std::move(cells));
   if (kinematics != Kinematics::small)
     throw Error("unsupported",
                 fmt::format("cell {}: bars and plates know small displacements only, and beams besides large rotations "

@@ -345,8 +345,13 @@ class RotatingBeam final : public ElementBlock {
     BeamMatrix k;
     for (int i = 0; i < 12; ++i)
       for (int j = 0; j < 12; ++j) k(i, j) = local(i, j).value();
+    return turned_back(k, turn);
+  }
+
+  /// From own axes to those of the mesh.
+  static BeamMatrix turned_back(BeamMatrix k, const Eigen::Matrix3d& axes) {
     for (int i = 0; i < 12; i += 3)
-      for (int j = 0; j < 12; j += 3) k.block<3, 3>(i, j) = (turn.transpose() * k.block<3, 3>(i, j) * turn).eval();
+      for (int j = 0; j < 12; j += 3) k.block<3, 3>(i, j) = (axes.transpose() * k.block<3, 3>(i, j) * axes).eval();
     return k;
   }
 
@@ -356,14 +361,12 @@ class RotatingBeam final : public ElementBlock {
   BeamMatrix plain_tangent(int element, const Eigen::VectorXd& u) const {
     const Member& own = members_[static_cast<std::size_t>(element)];
     const BeamPast& past = past_[static_cast<std::size_t>(element)];
-    const Eigen::Matrix3d axes = trial(element, u).axes;
-    const Vector12d force = trial(element, u).force;
+    const Trial now = trial(element, u);
     const double length = (past.along + increment(element, u).segment<3>(6)).norm();
-    BeamMatrix k = uniform_beam<double>(*own.section, own.moduli, length, shear_) +
-                   beam_geometric_stiffness(*own.section, length, {section_forces(force, 0), section_forces(force, 6)});
-    for (int i = 0; i < 12; i += 3)
-      for (int j = 0; j < 12; j += 3) k.block<3, 3>(i, j) = (axes.transpose() * k.block<3, 3>(i, j) * axes).eval();
-    return k;
+    return turned_back(uniform_beam<double>(*own.section, own.moduli, length, shear_) +
+                           beam_geometric_stiffness(*own.section, length,
+                                                    {section_forces(now.force, 0), section_forces(now.force, 6)}),
+                       now.axes);
   }
 
   /// At the end whose part of the end forces begins at `first`.
@@ -406,6 +409,16 @@ class RotatingBeam final : public ElementBlock {
 };
 
 }  // namespace
+
+bool is_rotating_beam(Formulation formulation, Kinematics kinematics) {
+  return kinematics == Kinematics::large_rotations && is_beam(formulation);
+}
+
+bool has_rotating_beams(const Model& model, const BehaviourOfCells* behaviours) {
+  for (std::size_t cell = 0; behaviours != nullptr && cell < behaviours->size(); ++cell)
+    if (is_rotating_beam(model.formulations[cell], (*behaviours)[cell].kinematics)) return true;
+  return false;
+}
 
 std::unique_ptr<ElementBlock> make_rotating_beam_block(const BlockInput& input, std::vector<int> cells) {
   return std::make_unique<RotatingBeam>(input, std::move(cells));

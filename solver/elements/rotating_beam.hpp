@@ -23,6 +23,11 @@ namespace comma::solver {
 /// make_slender_block() does else.
 std::unique_ptr<ElementBlock> make_rotating_beam_block(const BlockInput& input, std::vector<int> cells);
 
+/// Whether a cell is such a beam.
+bool is_rotating_beam(Formulation formulation, Kinematics kinematics);
+/// Whether any is; `behaviours`: may be null.
+bool has_rotating_beams(const Model& model, const BehaviourOfCells* behaviours);
+
 /// Internal variables at each point.
 inline constexpr int rotating_beam_variables = 3;
 

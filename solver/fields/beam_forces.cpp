@@ -67,8 +67,8 @@ TurnedAxes turned_axes(const Model& model, const BehaviourOfCells& behaviours, c
   };
   TurnedAxes axes;
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-    if (behaviours[static_cast<std::size_t>(cell)].kinematics != Kinematics::large_rotations ||
-        !is_beam(model.formulations[static_cast<std::size_t>(cell)]))
+    if (!is_rotating_beam(model.formulations[static_cast<std::size_t>(cell)],
+                          behaviours[static_cast<std::size_t>(cell)].kinematics))
       continue;
     const auto nodes = mesh.cell(cell);
     std::array<double, rotating_beam_variables> own{};

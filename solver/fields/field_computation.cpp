@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/rotating_beam.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/beam_forces.hpp"
 #include "solver/fields/beam_stresses.hpp"
@@ -376,12 +377,7 @@ Field FieldComputation::stress_criteria_at_nodes(std::size_t step) {
 }
 
 bool FieldComputation::has_beams_that_turn() const {
-  if (!problem_.behaviours) return false;
-  for (std::size_t cell = 0; cell < problem_.behaviours->size(); ++cell)
-    if ((*problem_.behaviours)[cell].kinematics == Kinematics::large_rotations &&
-        is_beam(problem_.model->formulations[cell]))
-      return true;
-  return false;
+  return has_rotating_beams(*problem_.model, problem_.behaviours.get());
 }
 
 // Forces act along the axes of beams as the step left them, which their variables hold.

@@ -8,6 +8,7 @@
 
 #include "solver/contact/straight_faces.hpp"
 #include "solver/contact/watched_zones.hpp"
+#include "solver/elements/rotating_beam.hpp"
 #include "solver/error.hpp"
 #include "solver/nonlinear/carried_surfaces.hpp"
 #include "solver/nonlinear/combinations.hpp"
@@ -32,14 +33,6 @@ std::vector<int> dofs_without_reactions(const std::vector<AppliedLoad>& loads, c
   return result;
 }
 
-bool has_turning_beams(const StaticProblem& problem) {
-  for (std::size_t cell = 0; problem.behaviours && cell < problem.behaviours->size(); ++cell)
-    if ((*problem.behaviours)[cell].kinematics == Kinematics::large_rotations &&
-        is_beam(problem.model->formulations[cell]))
-      return true;
-  return false;
-}
-
 }  // namespace
 
 StaticRun::StaticRun(const StaticProblem& problem, const NewtonOptions& options, Result& result, Counters& counters,
@@ -62,7 +55,8 @@ StaticRun::StaticRun(const StaticProblem& problem, const NewtonOptions& options,
       newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, reference_, support(), observer) {
   if (problem.contact) newton_.use_algorithm(*problem.contact);
   const bool has_bounds = problem.contact || !problem.unilateral.empty();
-  takes_plain_tangents_ = !has_bounds && followers_.empty() && has_turning_beams(problem);
+  takes_plain_tangents_ =
+      !has_bounds && followers_.empty() && has_rotating_beams(*problem.model, problem.behaviours.get());
   if (has_bounds || takes_plain_tangents_) tangent_.stay_symmetric();
   if (!followers_.empty()) {
     tangent_.follow(followers_);

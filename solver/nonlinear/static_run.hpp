@@ -84,8 +84,9 @@ class StaticRun {
   /// A prediction by the tangent leads astray where what flowed is unloaded: such a step is tried again from the
   /// elastic side.
   int solve_from_either_side(double instant, const Progress& before);
-  /// Supports so weak that they cost the digits of what contact does stand aside while it is sought.
+  /// With the derivative of the forces of beams in large rotations in place of Code_Aster's tangent.
   int solve_by_derivative(double instant, const Progress& before, const Error& failure);
+  /// Supports so weak that they cost the digits of what contact does stand aside while it is sought.
   int solve_on_stiffer_supports(double instant, const Progress& before, const Error& failure);
   /// With the solution of the path that was passed over, where the plan says so; nothing where that fails too.
   std::optional<int> solve_the_other_way(double instant, const Progress& before, const Error& failure);
