@@ -55,8 +55,8 @@ PathFollowing::PathFollowing(const StaticProblem& problem, const DofMap& dofs, c
       observer_(observer),
       criterion_(options),
       reference_(reference),
-      relations_(control_.choice == PathChoice::smallest_angle ? relations_of(problem) : std::vector<AppliedLoad>()),
-      relation_multipliers_(dofs, relations_) {
+      relation_multipliers_(
+          dofs, control_.choice == PathChoice::smallest_angle ? relations_of(problem) : std::vector<AppliedLoad>()) {
   multipliers_start_ = VectorXd::Zero(relation_multipliers_.size());
   if (control_.measure != PathMeasure::elastic_prediction && control_.measure != PathMeasure::strain)
     number_controlled();

@@ -118,7 +118,6 @@ class PathFollowing {
   const IterationObserver& observer_;
   ConvergenceCriterion criterion_;
   const ReferenceForces& reference_;
-  std::vector<AppliedLoad> relations_;
   RelationMultipliers relation_multipliers_;
   std::unique_ptr<ElasticPrediction> prediction_;
   std::unique_ptr<StrainControl> strains_;
