@@ -391,8 +391,12 @@ std::vector<double> NewtonSolver::pushed_back(std::size_t zones) {
 void NewtonSolver::note_doubts(const NewtonState& state, ContactDoubts& doubts) {
   const Eigen::VectorXd& softness = reduced_.inequalities.softness;
   if (active_.empty() || (softness.isZero(0.0) && !by_gradients())) return;
+  const Eigen::VectorXd past =
+      by_gradients() ? Eigen::VectorXd(reduced_.inequalities.rows * state.reduced - reduced_.inequalities.bounds)
+                     : Eigen::VectorXd(softness.cwiseProduct(row_multipliers_));
+  const double size = extent(mesh_);
+  if (!(past(active_).maxCoeff() > rounding_of_length * size)) return;
   const Eigen::VectorXd pushed = push_of_active();
-  const Eigen::VectorXd past = reduced_.inequalities.rows * state.reduced - reduced_.inequalities.bounds;
   struct Passed {
     double most = 0.0, reach = 0.0, softest = 0.0;
   };
@@ -400,10 +404,9 @@ void NewtonSolver::note_doubts(const NewtonState& state, ContactDoubts& doubts) 
   for (const int row : active_) {
     if (!(softness[row] > 0.0) && !by_gradients()) continue;
     Passed& passed = conditions[zone_of(row)];
-    const double here = by_gradients() ? past[row] : softness[row] * row_multipliers_[row];
-    passed.reach = std::max(passed.reach, here + pushed[row]);
-    if (here <= passed.most) continue;
-    passed.most = here;
+    passed.reach = std::max(passed.reach, past[row] + pushed[row]);
+    if (past[row] <= passed.most) continue;
+    passed.most = past[row];
     passed.softest = softness[row];
   }
   for (const auto& [condition, passed] : conditions) {
@@ -411,7 +414,7 @@ void NewtonSolver::note_doubts(const NewtonState& state, ContactDoubts& doubts) 
     ContactDoubt doubt{.zone = condition, .length = passed.most};
     doubt.kind = by_gradients() ? DoubtKind::coarse_gradients : DoubtKind::soft_bound;
     doubt.penalty = by_gradients() ? definition_->gradient_tolerance : 1.0 / passed.softest;
-    note_soft_penalty(doubt, passed.reach, extent(mesh_), doubts);
+    note_soft_penalty(doubt, passed.reach, size, doubts);
   }
 }
 

@@ -66,7 +66,8 @@ class NewtonSolver {
   /// How far contact forces, all or those of the zone alone, move the nodes of its conditions, at most, zone by zone
   /// (lengths); 0 of zones where nothing is closed.
   std::vector<double> pushed_back(std::size_t zones);
-  /// Of a step that has converged: how far bounds that give way are passed.
+  /// Of a step that has converged at the state: how far bounds that give way are passed, and what projected gradients
+  /// leave.
   void note_doubts(const NewtonState& state, ContactDoubts& doubts);
 
   /// Which stiffness the first iteration of the next steps takes.

@@ -304,6 +304,13 @@ class ActiveSetSolver {
 
 }  // namespace
 
+std::vector<int> positive_rows(const Eigen::VectorXd& multipliers) {
+  std::vector<int> rows;
+  for (Eigen::Index i = 0; i < multipliers.size(); ++i)
+    if (multipliers[i] > 0.0) rows.push_back(static_cast<int>(i));
+  return rows;
+}
+
 ActiveSetSolution solve_active_set(SchurComplement& schur, const ActiveSetProblem& problem) {
   ActiveSetMemory memory;
   return solve_active_set(schur, problem, memory);

@@ -40,6 +40,9 @@ struct ActiveSetSolution {
   std::vector<int> contradiction;
 };
 
+/// Rows whose multiplier is positive, rising.
+std::vector<int> positive_rows(const Eigen::VectorXd& multipliers);
+
 /// First in packets: all violated rows enter and all pulling ones leave at once, which finds most contact states in two
 /// or three rounds; then, if that does not settle, the dual method of Goldfarb and Idnani (Mathematical Programming 27,
 /// 1983) one row at a time, which is finite because the dual function rises at each full step. Rows that depend on

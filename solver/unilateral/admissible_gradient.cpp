@@ -37,8 +37,7 @@ class AdmissibleGradient {
 
   ActiveSetSolution solution(int iterations) {
     ActiveSetSolution result;
-    for (Index i = 0; i < x_.size(); ++i)
-      if (x_[i] > 0.0) result.active.push_back(static_cast<int>(i));
+    result.active = positive_rows(x_);
     result.multipliers = std::move(x_);
     result.iterations = iterations;
     return result;

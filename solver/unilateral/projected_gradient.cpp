@@ -128,8 +128,7 @@ class ProjectedGradient {
 
   ActiveSetSolution finish() {
     solution_.multipliers = scaling_.cwiseProduct(x_);
-    for (Index i = 0; i < x_.size(); ++i)
-      if (x_[i] > 0.0) solution_.active.push_back(static_cast<int>(i));
+    solution_.active = positive_rows(x_);
     return std::move(solution_);
   }
 
