@@ -365,9 +365,8 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
   definition.smooth_normals = call.text("LISSAGE") == "OUI";
   set_geometry_update(call, definition);
   definition.has_friction = is_mixed && call.text("FROTTEMENT") == "COULOMB";
-  const bool settles_by_newton = is_mixed && call.text("ALGO_RESO_CONT") == "NEWTON";
-  definition.settles_penalties = definition.holds_from_next_step = settles_by_newton;
-  definition.joint_iterations = settles_by_newton && call.text("ALGO_RESO_GEOM") == "NEWTON";
+  definition.contact_by_newton = is_mixed && call.text("ALGO_RESO_CONT") == "NEWTON";
+  definition.joint_iterations = definition.contact_by_newton && call.text("ALGO_RESO_GEOM") == "NEWTON";
   if (call.has("NB_ITER_GEOM")) definition.controlled_updates = static_cast<int>(call.integer("NB_ITER_GEOM"));
   if (call.has("ITER_GEOM_MAXI")) definition.max_geometry_updates = static_cast<int>(call.integer("ITER_GEOM_MAXI"));
   if (call.has("STOP_INTERP")) definition.stop_on_interpenetration = call.text("STOP_INTERP") == "OUI";

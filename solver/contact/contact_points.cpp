@@ -49,8 +49,10 @@ class ZonePoints {
     for (const FacePoint& at : rule) {
       ContactPoint point = place(cell, type, at);
       if (point.node >= 0 && point.weight == 0.0) {
-        take_share(point, type, is_carried(cell, type, point.node, rule));
-        if (type == CellType::seg2 && zone_.mixed.penalised && has_node_normals()) leave_without_force(point, at);
+        if (type == CellType::seg2 && zone_.mixed.penalised && has_node_normals())
+          leave_without_force(point, at);
+        else
+          take_share(point, type, is_carried(cell, type, point.node, rule));
       }
       if (point.weight == 0.0 || is_nearest_to(point, mesh_, [&](int node) { return excluded_.contains(node); }))
         continue;

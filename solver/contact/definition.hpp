@@ -50,7 +50,7 @@ struct MixedZone {
   std::optional<double> largest_depth;  ///< PENE_MAXI, a length: the depth from which on a penalty is adapted; nothing:
                                         ///< a share of the smallest master facet
   InitialContact initial = InitialContact::interpenetrating;  ///< CONTACT_INIT
-  /// GLISSIERE: a point that has closed does not open again (see ContactDefinition::holds_from_next_step); in the
+  /// GLISSIERE: a point that has closed does not open again (see ContactDefinition::contact_by_newton); in the
   /// discrete formulation all that face the master are closed, across gaps too (Code_Aster 17.3).
   bool bilateral = false;
   double unnoticed_gap = 0.0;  ///< ALARME_JEU, a length: of gaps that are closed so, up to which none is worth a doubt
@@ -116,11 +116,9 @@ struct ContactDefinition {
   /// Updates that have long brought the geometry no nearer to rest end where it moves by less than this.
   double restless_tolerance = 0.0;
   double joint_geometry_tolerance = 1e-6;  ///< RESI_GEOM where iterations are joint
-  /// Penalties that depths adapt are so until they stay, for each geometry (ALGO_RESO_CONT='NEWTON'); otherwise once a
-  /// geometry.
-  bool settles_penalties = false;
-  /// Of bilateral zones, points that a step closes may open again in it (ALGO_RESO_CONT='NEWTON'); otherwise none does.
-  bool holds_from_next_step = false;
+  /// ALGO_RESO_CONT='NEWTON': penalties that depths adapt are so until they stay, for each geometry, otherwise once a
+  /// geometry; of bilateral zones, points that a step closes may open again in it, otherwise none does.
+  bool contact_by_newton = false;
   bool joint_iterations = false;          ///< one iteration of Newton's method updates statuses, geometry and bodies
                                           ///< (ALGO_RESO_CONT and ALGO_RESO_GEOM 'NEWTON')
   int active_set_factor = 30;             ///< ITER_CONT_MULT: at most this many active-set iterations per slave node

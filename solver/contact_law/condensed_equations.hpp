@@ -64,7 +64,7 @@ class CondensedEquations {
   Eigen::Vector3d multiplier_at(const CondensedPoint& point) const {
     return solver::multiplier_at(problem_, state_, point);
   }
-  Eigen::Vector3d jump_at(const CondensedPoint& point) const { return solver::jump_at(point, jumps_); }
+  Eigen::Vector3d jump_at(const CondensedPoint& point) const { return at_point(point, jumps_); }
   double largest_pressure() const;
   /// Of lengths at a point that are differences of pressures or shears over an augmentation, which may be small beside
   /// the stiffness of the bodies.

@@ -24,9 +24,9 @@ Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& st
   return value;
 }
 
-Vector3d jump_at(const CondensedPoint& point, const Eigen::VectorXd& jumps) {
+Vector3d at_point(const CondensedPoint& point, const Eigen::VectorXd& on_rows) {
   Vector3d value = Vector3d::Zero();
-  value.head(point.rows) = jumps.segment(point.first_row, point.rows);
+  value.head(point.rows) = on_rows.segment(point.first_row, point.rows);
   return value;
 }
 
@@ -40,7 +40,7 @@ Eigen::MatrixXd resisting_rows(const CondensedPoint& point) {
 
 double slip_of(const CondensedPoint& point, const Eigen::VectorXd& jumps) {
   if (point.rows < 2) return 0.0;
-  return live_part(point.law, jump_at(point, jumps)).tail<2>().norm();
+  return live_part(point.law, at_point(point, jumps)).tail<2>().norm();
 }
 
 std::vector<char> shared_multipliers(const CondensedProblem& problem) {

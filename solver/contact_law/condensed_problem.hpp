@@ -102,8 +102,8 @@ bool has_penalty(const CondensedProblem& problem);
 Eigen::Vector3d multiplier_at(const CondensedProblem& problem, const CondensedState& state,
                               const CondensedPoint& point);
 
-/// At a point, where the rows have these jumps; zero beyond its own rows.
-Eigen::Vector3d jump_at(const CondensedPoint& point, const Eigen::VectorXd& jumps);
+/// What rows have, jumps or forces, at a point; zero beyond its own rows.
+Eigen::Vector3d at_point(const CondensedPoint& point, const Eigen::VectorXd& on_rows);
 
 /// The rows along which the law of a point resists, as combinations of its own: the normal, and where there is friction
 /// its tangents, or the one across its dead direction. One a row, on `point.rows`.

@@ -249,10 +249,6 @@ void add_group(Mesh& mesh, const std::string& name, std::vector<int> cells) {
   throw Error("group-exists", fmt::format("the mesh has a cell group {} already", name), "choose another name");
 }
 
-}  // namespace
-
-namespace {
-
 /// Lines before faces before solids: the order in which Code_Aster numbers the nodes that cells get.
 std::vector<int> by_dimension(const Mesh& mesh, std::span<const int> cells) {
   std::vector<int> result(cells.begin(), cells.end());

@@ -117,7 +117,7 @@ void MixedContact::take_solved_gaps(Eigen::VectorXd& jumps) const {
 ContactStatus MixedContact::take_secant(std::size_t p, const Eigen::VectorXd& jumps, bool accelerated) {
   CondensedPoint& point = problem_.points[p];
   point.law.linear_shear.reset();
-  const Vector3d jump = jump_at(point, jumps);
+  const Vector3d jump = at_point(point, jumps);
   const double pressure = -point.law.penalty() * jump[0];
   const bool is_closed = pressure > 0.0;
   const bool counts_from_start = secants_.linearisations <= 2;
@@ -145,10 +145,8 @@ ContactStatus MixedContact::take_secant(std::size_t p, const Eigen::VectorXd& ju
 std::vector<Vector3d> MixedContact::forces_of_points(const Eigen::VectorXd& on_rows) const {
   std::vector<Vector3d> forces(problem_.points.size(), Vector3d::Zero());
   if (on_rows.size() != rows_.full().rows()) return forces;
-  for (std::size_t p = 0; p < forces.size(); ++p) {
-    const CondensedPoint& point = problem_.points[p];
-    if (point.rows > 0) forces[p].head(point.rows) = on_rows.segment(point.first_row, point.rows);
-  }
+  for (std::size_t p = 0; p < forces.size(); ++p)
+    if (problem_.points[p].rows > 0) forces[p] = at_point(problem_.points[p], on_rows);
   return forces;
 }
 
@@ -186,7 +184,7 @@ void MixedContact::note_solved(const Eigen::VectorXd& before, const Eigen::Vecto
   const Eigen::VectorXd moved = jumps(after) - jumps(before);
   for (const Secants::Relief& relief : secants_.reliefs) {
     const CondensedPoint& point = problem_.points[relief.point];
-    const double along = relief.along.dot(jump_at(point, moved).tail<2>());
+    const double along = relief.along.dot(at_point(point, moved).tail<2>());
     std::map<int, double> own;
     for (int c = 1; c < point.rows; ++c)
       for (RowMatrix::InnerIterator it(rows_.full(), point.first_row + c); it; ++it)

@@ -33,6 +33,11 @@ bool has_friction(const ContactDefinition& definition) {
   return std::ranges::any_of(definition.zones, [](const ContactZone& zone) { return zone.mixed.friction > 0.0; });
 }
 
+/// With which a point begins that is taken as closed.
+ContactStatus closed(const ContactLaw& law) {
+  return law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
+}
+
 }  // namespace
 
 MixedContact::MixedContact(const ContactDefinition& definition, const Model& model, const DofMap& dofs,
@@ -68,7 +73,7 @@ void MixedContact::pair(Positions positions, double time, double margin) {
 }
 
 void MixedContact::face(Positions positions, double time, double margin) {
-  const std::vector<Vector3d> held = forces_of_points(secants_.held);
+  const std::vector<Vector3d> held = is_secant() ? forces_of_points(secants_.held) : std::vector<Vector3d>();
   rows_.face(positions, time, margin);
   ++counters_.pairings;
   problem_.points = rows_.build(reference_);
@@ -98,7 +103,7 @@ void MixedContact::accept_step(double duration) {
 
 void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
   secants_.predicts = is_secant();
-  secants_.held = forces_;
+  if (is_secant()) secants_.held = forces_;
   secants_.linearisations = 0;
   next_geometry_.reset();
   if (secants_.predicts && started_) begin_secants();
@@ -140,7 +145,7 @@ bool MixedContact::is_faced_again() const {
 
 /// Code_Aster 17.3, in ssnv104e and in scenes of two blocks: Newton's method on contact holds what a step begins with.
 void MixedContact::hold_points() {
-  if (!definition_.holds_from_next_step) return;
+  if (!definition_.contact_by_newton) return;
   for (std::size_t p = 0; p < points().size(); ++p)
     problem_.points[p].bilateral =
         definition_.zones[static_cast<std::size_t>(points()[p].zone)].mixed.bilateral && began_closed_[p] != 0;
@@ -192,7 +197,7 @@ void MixedContact::start_statuses(const Eigen::VectorXd& jumps) {
     const bool touches = jumps[point.first_row] <= touching * extent(mesh_, points()[p].cell);
     if (held[p] != 0 || zone.initial == InitialContact::all ||
         (zone.initial == InitialContact::interpenetrating && touches))
-      state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
+      state_.statuses[p] = closed(point.law);
   }
 }
 
@@ -204,7 +209,7 @@ void MixedContact::close_slides() {
     const CondensedPoint& point = problem_.points[p];
     const MixedZone& zone = definition_.zones[static_cast<std::size_t>(points()[p].zone)].mixed;
     if (!zone.bilateral || point.rows == 0 || state_.statuses[p] != ContactStatus::open) continue;
-    state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
+    state_.statuses[p] = closed(point.law);
     const double gap = now[point.first_row];
     if (gap > std::max(zone.unnoticed_gap, touching * extent(mesh_, points()[p].cell)))
       bridged_.push_back({.kind = DoubtKind::bridged_gap,
@@ -225,7 +230,7 @@ void MixedContact::close_nearest(const Eigen::VectorXd& jumps) {
   for (std::size_t p = 0; p < points().size(); ++p) {
     const CondensedPoint& point = problem_.points[p];
     if (point.rows > 0 && jumps[point.first_row] <= nearest + touching * extent(mesh_, points()[p].cell))
-      state_.statuses[p] = point.law.friction > 0.0 ? ContactStatus::sticking : ContactStatus::sliding;
+      state_.statuses[p] = closed(point.law);
   }
 }
 
@@ -419,7 +424,7 @@ bool MixedContact::adapt_penalties(const Eigen::VectorXd& u) {
   const bool is_deep = adapted_.is_too_deep(zones, present);
   // What contact alone holds would lie infinitely deep.
   if (is_deep && !began_adapted() && tangent_.springs().empty()) adapted_.note_depths(depths(now - pushed_by(forces_)));
-  if (!adapted_.adapt(zones, present, is_deep ? tangent_.largest_term(u) : 0.0, !definition_.settles_penalties))
+  if (!adapted_.adapt(zones, present, is_deep ? tangent_.largest_term(u) : 0.0, !definition_.contact_by_newton))
     return false;
   apply_penalties();
   return true;

@@ -71,12 +71,12 @@ class MixedContact {
   /// ones ask for none, and nodes that had moved by no more than RESI_GEOM since points were faced before (see
   /// geometry_change); secants that friction has acted wherever points are closed.
   bool may_end(int changes) const;
-  /// By secants, the largest force at an unknown that conditions hold by reactions which the last linear solve did not
-  /// balance: a reaction is that of the solve.
+  /// The largest forces at unknowns that conditions hold which the last linear solve did not balance.
   struct HeldImbalance {
-    double counted = 0.0;  ///< a force, where there are reactions
-    double largest = 0.0;  ///< the same of all that conditions hold: it counts among the loads
+    double counted = 0.0;  ///< where there are reactions
+    double largest = 0.0;  ///< of all: it counts among the loads
   };
+  /// By secants: a reaction is that of the solve.
   HeldImbalance held_imbalance() const;
   /// The residual of an iteration, as a share of the loads.
   void note_residual(double share);

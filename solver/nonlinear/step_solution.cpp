@@ -75,7 +75,7 @@ int StaticRun::solve_step(double time) {
 }
 
 bool StaticRun::adapt_penalties_once() {
-  return mixed_ && !problem_.contact->settles_penalties && mixed_->adapt_penalties(now_.state.u);
+  return mixed_ && !problem_.contact->contact_by_newton && mixed_->adapt_penalties(now_.state.u);
 }
 
 bool StaticRun::penalties_change(double time, int adaptations) {
@@ -85,7 +85,7 @@ bool StaticRun::penalties_change(double time, int adaptations) {
       observer_(event_of_step(time, "contact is deeper, or slips by more, than allowed: its penalty is raised"));
     return true;
   }
-  if (!problem_.contact->settles_penalties || !mixed_->adapt_penalties(now_.state.u)) return false;
+  if (!problem_.contact->contact_by_newton || !mixed_->adapt_penalties(now_.state.u)) return false;
   if (adaptations < most_adaptations) return true;
   throw Error("no-convergence",
               fmt::format("penalties of contact that depths adapt have not settled after {} times", most_adaptations),

@@ -164,7 +164,7 @@ TEST_CASE("Penalties that depths adapt bring points to a hundred times the depth
     mixed.augmentation = 1.0;
     mixed.adapts_penalty = true;
     mixed.largest_depth = allowed;
-    stack.scene.problem.contact->settles_penalties = true;
+    stack.scene.problem.contact->contact_by_newton = true;
     stack.scene.solve(2);
     return stack.scene.displacement(stack.lower.nodes.back()[1], Component::dy) -
            stack.scene.displacement(stack.upper.nodes[0][1], Component::dy);
