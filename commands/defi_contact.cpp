@@ -366,7 +366,11 @@ solver::ContactDefinition contact(const Call& call, const solver::Model& model) 
   set_geometry_update(call, definition);
   definition.has_friction = is_mixed && call.text("FROTTEMENT") == "COULOMB";
   definition.contact_by_newton = is_mixed && call.text("ALGO_RESO_CONT") == "NEWTON";
-  definition.joint_iterations = definition.contact_by_newton && call.text("ALGO_RESO_GEOM") == "NEWTON";
+  const bool is_geometry_by_newton = call.text("ALGO_RESO_GEOM") == "NEWTON";
+  definition.joint_iterations = definition.contact_by_newton && is_geometry_by_newton;
+  if (definition.has_friction && !definition.contact_by_newton && !is_geometry_by_newton &&
+      call.text("ALGO_RESO_FROT") == "NEWTON")
+    definition.friction_tolerance = call.real("RESI_FROT");
   if (call.has("NB_ITER_GEOM")) definition.controlled_updates = static_cast<int>(call.integer("NB_ITER_GEOM"));
   if (call.has("ITER_GEOM_MAXI")) definition.max_geometry_updates = static_cast<int>(call.integer("ITER_GEOM_MAXI"));
   if (call.has("STOP_INTERP")) definition.stop_on_interpenetration = call.text("STOP_INTERP") == "OUI";

@@ -86,6 +86,12 @@ Advice advice_on(const solver::ContactDoubt& doubt, const solver::ContactDefinit
                       "they would be without contact: contact forces are wrong by about that share",
                       zone, doubt.length, 100.0 * doubt.share),
           fmt::format("take a smaller RESI_ABSO than {:.3g}, or ALGO_CONT='CONTRAINTE'", doubt.penalty)};
+    case solver::DoubtKind::coarse_friction:
+      return {"coarse-friction",
+              fmt::format("RESI_FROT = {:.3g} ends the iterations on friction where pressures and friction of zone {} "
+                          "still change by {:.2g} % of the largest: figures are those of the last iteration",
+                          doubt.penalty, zone, 100.0 * doubt.share),
+              "take RESI_FROT = 1e-4, which is the default"};
     case solver::DoubtKind::soft_friction:
       return {"soft-friction-penalty",
               fmt::format("with {} = {:.3g} slave nodes of zone {} that stick creep by {:.3g}, {:.0f} % of what they "

@@ -119,6 +119,9 @@ struct ContactDefinition {
   /// ALGO_RESO_CONT='NEWTON': penalties that depths adapt are so until they stay, for each geometry, otherwise once a
   /// geometry; of bilateral zones, points that a step closes may open again in it, otherwise none does.
   bool contact_by_newton = false;
+  /// RESI_FROT where friction alone is by Newton's method (ALGO_RESO_CONT and ALGO_RESO_GEOM 'POINT_FIXE'); 0: not
+  /// known.
+  double friction_tolerance = 0.0;
   bool joint_iterations = false;          ///< one iteration of Newton's method updates statuses, geometry and bodies
                                           ///< (ALGO_RESO_CONT and ALGO_RESO_GEOM 'NEWTON')
   int active_set_factor = 30;             ///< ITER_CONT_MULT: at most this many active-set iterations per slave node

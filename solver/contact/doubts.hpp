@@ -21,6 +21,7 @@ enum class DoubtKind : std::uint8_t {
   soft_bound,        ///< bounds that give way are passed by a good part of what they would be without
   coarse_gradients,  ///< projected gradients end where nodes are inside the master by a good part of what they would be
                      ///< without contact
+  coarse_friction,   ///< friction still changes where its iterations end (ContactDefinition::friction_tolerance)
   soft_friction,     ///< points that stick creep by a good part of what they would slip without friction
   unshared_friction,     ///< points between nodes rub by shears of the nodes, no solution by shares of the limit having
                          ///< been found
@@ -49,10 +50,11 @@ struct ContactDoubt {
   int zone = 0;
   double share = 0.0;  ///< of the depth, slip or motion in what the kind compares it with; `passed_master`,
                        ///< `passed_average`, `coarse_face`: of the mean depth of nodes or points in what contact pushes
-                       ///< back (infinite where it pushes nothing); `weak_friction`, `strong_friction`: of what points
+                       ///< back (infinite where it pushes nothing); `coarse_friction`: by which unknowns change, in the
+                       ///< largest; `weak_friction`, `strong_friction`: of what points
                        ///< that slide lack in the limit of all, or points bear beyond theirs
   double length = 0.0;   ///< m: depth or slip
-  double penalty = 0.0;  ///< the present one; `coarse_gradients`: the tolerance (m)
+  double penalty = 0.0;  ///< the present one; `coarse_gradients`: the tolerance (m); `coarse_friction`: that of a share
   double wanted = 0.0;   ///< one that would leave a share of `penalty_goal`
   int cell = -1;         ///< slave face of a held overlap
   int node = -1;  ///< slave node of a stale geometry, a watched overlap or a bridged gap, the node that moves most of a

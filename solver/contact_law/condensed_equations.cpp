@@ -128,7 +128,7 @@ void CondensedEquations::let_multipliers_bear_penalties(double stiffness, Contac
 ContactLaw CondensedEquations::law_of(std::size_t p) const {
   ContactLaw law = problem_.points[p].law;
   law.friction *= friction_share_;
-  law.pointwise = is_nodal_;
+  law.pointwise = is_nodal_ && !law.weighs_any_pressure;
   if (law.penalised) law.augmentation *= penalty_share_;
   if (law.friction_penalised) law.friction_augmentation *= penalty_share_;
   if (is_nodal_) let_multipliers_bear_penalties(problem_.points[p].stiffness, law);
@@ -189,9 +189,17 @@ void CondensedEquations::correct() {
   }
   balance.head(static_cast<Index>(unknown_rows_.size())) = unbalanced_jumps();
   const Eigen::VectorXd step = solved(equations, balance);
+  take_solved_forces(equations.forces() * step);
   for (std::size_t k = 0; k < unknown_rows_.size(); ++k) jumps_[unknown_rows_[k]] -= step[static_cast<Index>(k)];
   for (std::size_t i = 0; i < multiplier_unknowns_.size(); ++i)
     if (multiplier_unknowns_[i] >= 0) state_.multipliers[static_cast<Index>(i)] -= step[multiplier_unknowns_[i]];
+}
+
+/// `changes`: by which the step brings those of unknown rows down.
+void CondensedEquations::take_solved_forces(const Eigen::VectorXd& changes) {
+  solved_forces_ = forces_;
+  for (std::size_t k = 0; k < unknown_rows_.size(); ++k)
+    solved_forces_[unknown_rows_[k]] -= changes[static_cast<Index>(k)];
 }
 
 bool CondensedEquations::correct_at_nodes() {
@@ -215,9 +223,7 @@ bool CondensedEquations::correct_at_nodes() {
     return true;
   }
   for (std::size_t k = 0; k < unknown_rows_.size(); ++k) jumps_[unknown_rows_[k]] -= (*jumps)[static_cast<Index>(k)];
-  solved_forces_ = forces_;
-  for (std::size_t k = 0; k < unknown_rows_.size(); ++k)
-    solved_forces_[unknown_rows_[k]] -= step.force_changes()[static_cast<Index>(k)];
+  take_solved_forces(step.force_changes());
   for (const NodalStep::Change& change : step.multiplier_changes())
     for (int c = 0; c < change.rows; ++c) state_.multipliers[multiplier_index(change.node, c)] -= change.value[c];
   return true;

@@ -43,7 +43,7 @@ class CondensedEquations {
 
   /// One step of Newton's method for jumps and multipliers.
   void correct();
-  /// Forces that the last step has been solved with, where points lie on nodes; else empty.
+  /// Forces that the last step has been solved with; empty where nothing was unknown.
   const Eigen::VectorXd& solved_forces() const { return solved_forces_; }
   /// Forces, and what is left of the equations, at the present multipliers and jumps.
   void evaluate();
@@ -83,6 +83,7 @@ class CondensedEquations {
   /// The step with the multipliers eliminated point by point: half the unknowns. False where a law leaves its
   /// multiplier open.
   bool correct_at_nodes();
+  void take_solved_forces(const Eigen::VectorXd& changes);
   /// Many rows by products with the compliance; where these lead nowhere and for few rows, directly. Nothing where that
   /// takes too long as well.
   std::optional<Eigen::VectorXd> solved(NodalStep& step, const Eigen::VectorXd& balance);

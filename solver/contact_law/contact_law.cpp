@@ -101,6 +101,24 @@ void add_idle_share(const ContactLaw& law, const Vector3d& multiplier, ContactLa
   value.residual_by_multiplier.bottomRightCorner<2, 2>() = by_multiplier;
 }
 
+/// See ContactLaw::weighs_any_pressure.
+void add_shear_by_any_pressure(const ContactLaw& law, ContactStatus status, const Shear& unit,
+                               const Vector3d& multiplier, const Vector3d& jump, ContactLawValue& value) {
+  const double augmentation = law.friction_augmentation, weight = multiplier[0] / law.share_pressure;
+  add_traction(law,
+               {.value = weight * unit.value,
+                .by_trial = weight * unit.by_trial,
+                .by_pressure = unit.value / law.share_pressure},
+               value);
+  if (status == ContactStatus::open || weight == 0.0) return add_idle_share(law, multiplier, value);
+  const bool sticks = status == ContactStatus::sticking;
+  value.residual.tail<2>() = weight * (sticks ? left_of_sticking(law, multiplier, jump)
+                                              : Vector2d((unit.value - multiplier.tail<2>()) / augmentation));
+  value.residual_by_multiplier.bottomRightCorner<2, 2>() =
+      weight / augmentation * (unit.by_trial - Matrix2d::Identity());
+  value.residual_by_jump.bottomRightCorner<2, 2>() = weight * unit.by_trial;
+}
+
 /// `unit`: the shear at the pressure of shares. Pressures that press nothing have no derivative.
 void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shear& unit, double pressure,
                          const Vector3d& multiplier, const Vector3d& jump, ContactLawValue& value) {
@@ -172,6 +190,10 @@ ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const V
     return value;
   }
   const Shear shear = live_shear(law, status, multiplier, jump);
+  if (law.weighs_any_pressure) {
+    add_shear_by_any_pressure(law, status, shear, multiplier, jump, value);
+    return value;
+  }
   if (law.share_pressure > 0.0) {
     add_shear_by_shares(law, status, shear, limiting_pressure(law, multiplier, jump), multiplier, jump, value);
     return value;

@@ -35,6 +35,9 @@ struct ContactLaw {
   bool opens_by_gap = false;  ///< of a penalty between nodes: where it does not overlap (see closing_pressure)
   double held_share = 0.0;  ///< positive: by shares, what stands for the present pressure over share_pressure, save in
                             ///< the limit of friction
+  /// By shares: a pressure that pulls weighs them as one that pushes, and what weighs them has no derivative: that of
+  /// iterations which hold closed points (Code_Aster 17.3).
+  bool weighs_any_pressure = false;
   std::optional<LinearShear> linear_shear;  ///< stands for the law of friction while the point is closed
 
   double penalty() const { return augmentation / (1.0 - pressure_share); }

@@ -83,6 +83,7 @@ bool MixedContact::open_by_gaps() {
 
 /// With the augmentations given; where there is no solution, with softer ones.
 CondensedSolution MixedContact::solve_law() {
+  if (is_rubbing()) return step_by_shares();
   const CondensedState earlier = state_;
   CondensedSolution solution = solve_condensed(*schur_, problem_, state_);
   while (solution.verdict == CondensedVerdict::too_many_iterations && schur_->is_exact() && lower_augmentation()) {

@@ -32,6 +32,7 @@ bool rubs_between_nodes(const ContactDefinition& definition) {
 
 MixedContact::Iterations MixedContact::iterations_like_code_aster(bool whole_newton) const {
   if (rubs_between_nodes(definition_)) return Iterations::secant;
+  if (rubs_loosely()) return Iterations::rubbing;
   const bool is_standard = std::ranges::none_of(definition_.zones, [](const ContactZone& zone) {
     return zone.mixed.local_average || zone.mixed.penalised || zone.mixed.friction > 0.0;
   });
@@ -44,11 +45,13 @@ void MixedContact::iterate(Iterations iterations) {
 }
 
 int MixedContact::linearise(const Eigen::VectorXd& u, double time) {
+  if (is_rubbing()) return linearise_friction(u);
   return is_secant() ? linearise_secants(u) : face_and_linearise(u, time);
 }
 
 bool MixedContact::may_end(int changes) const {
   if (iterations_ == Iterations::joint) return changes == 0 && geometry_change_ <= definition_.joint_geometry_tolerance;
+  if (is_rubbing()) return rubbing_.change <= definition_.friction_tolerance;
   if (!is_secant()) return true;
   for (std::size_t p = 0; p < points().size(); ++p)
     if (state_.statuses[p] != ContactStatus::open && problem_.points[p].law.friction > 0.0 && secants_.rubs[p] == 0)
@@ -202,12 +205,14 @@ Eigen::VectorXd MixedContact::forces_left_out() const {
   return rows_.reduced().transpose() * (forces_ - secants_.held);
 }
 
-MixedContact::HeldImbalance MixedContact::held_imbalance() const {
+MixedContact::HeldImbalance MixedContact::held_imbalance(const Eigen::VectorXd& balance) const {
   HeldImbalance result;
-  if (!is_secant()) return result;
-  Eigen::VectorXd left = rows_.full().transpose() * forces_ - secants_.solved;
-  for (const int dof : elimination_.kept()) left[dof] = 0.0;
-  result.largest = largest_component(left);
+  if (!is_secant() && !is_rubbing()) return result;
+  const Eigen::VectorXd& solved = is_secant() ? secants_.solved : rubbing_.solved;
+  Eigen::VectorXd left = rows_.full().transpose() * forces_ - solved;
+  Eigen::VectorXd reactions = balance + solved;
+  for (const int dof : elimination_.kept()) left[dof] = reactions[dof] = 0.0;
+  result.largest = largest_component(is_secant() ? left : reactions);
   for (const int dof : eliminated_) left[dof] = 0.0;
   result.counted = largest_component(left);
   return result;

@@ -303,6 +303,7 @@ int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& 
   forces_ = forces.head(forces_.size());
   if (is_secant())
     note_solved(elimination_.transformation() * before + offset, elimination_.transformation() * corrected + offset);
+  if (is_rubbing()) rubbing_.solved = rows_.full().transpose() * forces_;
   int changes = 0;
   for (std::size_t p = 0; p < statuses.size(); ++p) changes += statuses[p] != state_.statuses[p];
   return changes;
@@ -477,6 +478,7 @@ void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) 
                                  opens_by_gaps_};
   comma::solver::note_doubts(solved(u), response, doubts);
   for (const ContactDoubt& doubt : bridged_) doubts.note(doubt);
+  note_coarse_friction(doubts);
 }
 
 void MixedContact::note_loose_bodies(const Eigen::VectorXd& u, ContactDoubts& doubts) const {

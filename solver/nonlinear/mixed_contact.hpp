@@ -32,8 +32,9 @@ class MixedContact {
  public:
   /// What an iteration of Newton's method on the bodies does with contact. `settled`: solves its law exactly. `joint`:
   /// one linear solve with statuses and geometry at hand, which change after it. `secant`: the same with the geometry
-  /// held, friction of penalties being known by the slip before (see secant_friction.hpp).
-  enum class Iterations : std::uint8_t { settled, joint, secant };
+  /// held, friction of penalties being known by the slip before (see secant_friction.hpp). `rubbing`: with the geometry
+  /// and closed points held; friction alone changes after it, by shares of its limit.
+  enum class Iterations : std::uint8_t { settled, joint, secant, rubbing };
 
   /// Keeps references to its arguments. `support`: the reduced unknowns that contact can touch, rising.
   MixedContact(const ContactDefinition& definition, const Model& model, const DofMap& dofs,
@@ -55,7 +56,8 @@ class MixedContact {
   /// Faces the points anew. `positions`: where the nodes are now.
   void pair(Positions positions, double time, double margin = 0.0);
   /// Those that Code_Aster has, so that figures of a criterion that is loose are the same: joint ones for standard
-  /// contact without friction by Newton's method alone (`whole_newton`), secants for penalties that rub between nodes.
+  /// contact without friction by Newton's method alone (`whole_newton`), secants for penalties that rub between nodes,
+  /// rubbing ones for standard friction by Newton's method alone with a loose criterion (RESI_FROT).
   Iterations iterations_like_code_aster(bool whole_newton) const;
   void iterate(Iterations iterations);
   /// These unknowns are eliminated, without reactions (AFFE_CHAR_CINE): held_imbalance() leaves them out.
@@ -64,20 +66,28 @@ class MixedContact {
   bool is_linear() const { return problem_.one_step; }
   bool is_joint() const { return iterations_ == Iterations::joint; }
   bool is_secant() const { return iterations_ == Iterations::secant; }
+  bool is_rubbing() const { return iterations_ == Iterations::rubbing; }
   /// After a correction that has led to u: statuses and forces are what the law says there, of joint iterations where
   /// points are faced anew. Returns the number of points whose status changed.
   int linearise(const Eigen::VectorXd& u, double time);
   /// After `linearise`, which has changed so many statuses: whether a residual small enough ends the iterations. Joint
   /// ones ask for none, and nodes that had moved by no more than RESI_GEOM since points were faced before (see
-  /// geometry_change); secants that friction has acted wherever points are closed.
+  /// geometry_change); secants that friction has acted wherever points are closed; rubbing ones that unknowns have
+  /// changed by no more than RESI_FROT of the largest.
   bool may_end(int changes) const;
+  /// Rubbing iterations begin, again and again, where the step does, without shears; the pressures at hand weigh those
+  /// of the first.
+  void begin_again();
+  /// Of rubbing iterations that have ended at u: opens points that pull, and closes those that overlap. How many.
+  int change_points(const Eigen::VectorXd& u);
   /// The largest forces at unknowns that conditions hold which the last linear solve did not balance.
   struct HeldImbalance {
     double counted = 0.0;  ///< where there are reactions
     double largest = 0.0;  ///< of all: it counts among the loads
   };
-  /// By secants: a reaction is that of the solve.
-  HeldImbalance held_imbalance() const;
+  /// By secants and rubbing ones: a reaction is that of the solve. `balance`: of all loads but those of contact, one a
+  /// degree of freedom.
+  HeldImbalance held_imbalance(const Eigen::VectorXd& balance) const;
   /// The residual of an iteration, as a share of the loads.
   void note_residual(double share);
   /// Whether points overlap at u that wait for the geometry at the end of the step (see hold_back_points): points must
@@ -149,6 +159,13 @@ class MixedContact {
     Eigen::VectorXd shears;  ///< friction where that began, on all degrees of freedom
   };
 
+  struct Rubbing {
+    /// Displacements in the step, pressures and shares of friction after the iteration before; empty: all zero.
+    Eigen::VectorXd last;
+    double change = 0.0;     ///< of the largest of these in the last iteration
+    Eigen::VectorXd solved;  ///< forces of the last linear solve, on all degrees of freedom
+  };
+
   struct Geometry {
     std::vector<Eigen::Vector3d> places;  ///< of the nodes
     double time = 0.0, margin = 0.0;
@@ -157,6 +174,16 @@ class MixedContact {
   void face(Positions positions, double time, double margin);
   int face_and_linearise(const Eigen::VectorXd& u, double time);
   int linearise_secants(const Eigen::VectorXd& u);
+  bool rubs_loosely() const;
+  int linearise_friction(const Eigen::VectorXd& u);
+  void note_friction(const Eigen::VectorXd& u, const Eigen::VectorXd& shares);
+  Eigen::VectorXd shares() const;
+  void take_shares(const Eigen::VectorXd& shares);
+  template <typename Visit>
+  void visit_shears(const Visit& visit) const;
+  ContactLaw law_by_shares(std::size_t p, double pressure) const;
+  CondensedSolution step_by_shares();
+  void note_coarse_friction(ContactDoubts& doubts) const;
   void take_solved_gaps(Eigen::VectorXd& jumps) const;
   ContactStatus take_secant(std::size_t p, const Eigen::VectorXd& jumps, bool accelerated);
   std::vector<Eigen::Vector3d> forces_of_points(const Eigen::VectorXd& on_rows) const;
@@ -223,6 +250,7 @@ class MixedContact {
       remembered_;
   Iterations iterations_ = Iterations::settled;
   Secants secants_;
+  Rubbing rubbing_;
   std::optional<Geometry> next_geometry_;
   std::size_t spring_count_ = 0;
   Eigen::VectorXd forces_;  ///< on the rows

@@ -202,7 +202,8 @@ void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& ext
 /// Residual of the reduced unknowns and the size of the loads, reactions, contact forces and those of command variables
 /// included.
 void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal) {
-  residual_ = elimination_.transformation().transpose() * (loads - internal);
+  balance_ = loads - internal;
+  residual_ = elimination_.transformation().transpose() * balance_;
   if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
   if (mixed_) residual_ += mixed_->forces();
   load_ = weights_.load_size(loads, internal, variable_forces_);
@@ -211,7 +212,7 @@ void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& 
 
 ConvergenceCriterion::Measure NewtonSolver::distance(const NewtonState& state) const {
   const Eigen::VectorXd weighed = weights_.weighed(residual_);
-  const MixedContact::HeldImbalance held = mixed_ ? mixed_->held_imbalance() : MixedContact::HeldImbalance();
+  const MixedContact::HeldImbalance held = mixed_ ? mixed_->held_imbalance(balance_) : MixedContact::HeldImbalance();
   return criterion_.measure(std::max(held.counted, largest_component(weighed)), std::max(held.largest, load_),
                             is_rounding(state), reference_.share(residual_), reference_.share_by_component(weighed));
 }

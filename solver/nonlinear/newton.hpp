@@ -161,8 +161,9 @@ class NewtonSolver {
                                      ///< where there are none
   RowWeights weights_;
   double load_ = 0.0;
-  double applied_ = 0.0;  ///< the largest component of the external forces
-  int steps_ = 0;         ///< accepted so far
+  Eigen::VectorXd balance_;  ///< external less internal forces, on all degrees of freedom
+  double applied_ = 0.0;     ///< the largest component of the external forces
+  int steps_ = 0;            ///< accepted so far
   TangentKind prediction_;
   TangentPolicy policy_;   ///< of this step
   bool is_short_ = false;  ///< this step takes the elastic stiffness because of its length

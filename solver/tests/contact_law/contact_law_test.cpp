@@ -146,6 +146,37 @@ TEST_CASE(
         exactly(10.0));
 }
 
+TEST_CASE("Shares that any pressure weighs: a pull rubs the other way, and the weight has no derivative") {
+  ContactLaw law;
+  law.augmentation = 900.0;
+  law.friction = 0.3;
+  law.friction_augmentation = 700.0;
+  law.share_pressure = 80.0;
+  law.weighs_any_pressure = true;
+  const Vector3d pressing(100.0, 7.0, 12.0), pulling(-100.0, 7.0, 12.0), jump(0.0, 0.02, 0.05);
+  for (const ContactStatus status : {ContactStatus::sliding, ContactStatus::sticking}) {
+    const auto value = [&](const Vector3d& multiplier, const Vector3d& at) {
+      return contact_law(law, status, multiplier, at);
+    };
+    CAPTURE(static_cast<int>(status));
+    CHECK((value(pulling, jump).traction + value(pressing, jump).traction).norm() <= 1e-13);
+    CHECK((value(pulling, jump).residual + value(pressing, jump).residual).tail<2>().norm() <= 1e-15);
+    CHECK(value(pulling, jump).residual_by_multiplier.col(0).tail<2>().isZero(0.0));
+    // With the weight of the pressure held, a law that looks at pushes alone has the same derivatives.
+    ContactLaw plain = law;
+    plain.weighs_any_pressure = false;
+    ContactLawValue same = contact_law(plain, status, pressing, jump);
+    same.residual_by_multiplier.col(0).tail<2>().setZero();
+    const ContactLawValue own = value(pressing, jump);
+    CHECK(own.traction.isApprox(same.traction, 1e-14));
+    CHECK(own.residual.isApprox(same.residual, 1e-14));
+    CHECK(own.traction_by_multiplier.isApprox(same.traction_by_multiplier, 1e-14));
+    CHECK(own.traction_by_jump.isApprox(same.traction_by_jump, 1e-14));
+    CHECK(own.residual_by_multiplier.isApprox(same.residual_by_multiplier, 1e-14));
+    CHECK(own.residual_by_jump.isApprox(same.residual_by_jump, 1e-14));
+  }
+}
+
 TEST_CASE("Under a penalty a point between nodes that press on it stays closed across a small gap") {
   ContactLaw law;
   law.penalised = true;
