@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/linear/blas_kernels.hpp"
 
 namespace comma::solver {
 
@@ -18,8 +19,9 @@ namespace {
 
 }  // namespace
 
-SharedLibrary::SharedLibrary(const std::string& file)
-    : file_(file), handle_(dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE)) {
+SharedLibrary::SharedLibrary(const std::string& file) : file_(file) {
+  choose_blas_kernels();
+  handle_ = dlopen(file.c_str(), RTLD_LAZY | RTLD_LOCAL | RTLD_NODELETE);
   if (!handle_) fail(file_);
 }
 
