@@ -19,7 +19,7 @@ std::vector<ComponentExtremes> extremes_of(const solver::Field& field, const std
 void add_extremes(Table& table, const Row& head, const std::vector<ComponentExtremes>& all,
                   const std::function<Row(const solver::Extreme&)>& where) {
   if (all.empty()) return;
-  const auto add = [&](const char* name, solver::Extreme solver::Extremes::* kind, auto rank, auto shown) {
+  const auto add = [&](const char* name, solver::Extreme solver::Extremes::*kind, auto rank, auto shown) {
     const auto& [component, found] =
         *std::ranges::max_element(all, {}, [&](const auto& each) { return rank((each.found.*kind).value); });
     Row row = head;
@@ -32,9 +32,11 @@ void add_extremes(Table& table, const Row& head, const std::vector<ComponentExtr
   const auto value = [](double x) { return x; };
   const auto magnitude = [](double x) { return std::abs(x); };
   add("MAX", &solver::Extremes::greatest, value, value);
-  add("MIN", &solver::Extremes::least, [](double x) { return -x; }, value);
+  add(
+      "MIN", &solver::Extremes::least, [](double x) { return -x; }, value);
   add("MAXI_ABS", &solver::Extremes::greatest_magnitude, magnitude, magnitude);
-  add("MINI_ABS", &solver::Extremes::least_magnitude, [](double x) { return -std::abs(x); }, magnitude);
+  add(
+      "MINI_ABS", &solver::Extremes::least_magnitude, [](double x) { return -std::abs(x); }, magnitude);
 }
 
 }  // namespace comma::commands
