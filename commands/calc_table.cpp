@@ -75,7 +75,7 @@ void add_row(Table& table, const Keywords& action) {
   table.add_row(row);
 }
 
-// One value a column, or the values of one column.
+// One value a column, or the values of one column, whose last rows stay empty where there are fewer.
 void add_columns(Table& table, const Keywords& action) {
   const auto names = action.texts("NOM_PARA");
   for (const std::string& name : names) {
@@ -87,10 +87,12 @@ void add_columns(Table& table, const Keywords& action) {
   const char* keyword = by_row ? "VALE_COLONNE" : "VALE";
   const auto cells = cells_of(action, keyword);
   if (by_row) check_count(action, "NOM_PARA", names.size(), 1, "columns of VALE_COLONNE");
-  check_count(action, keyword, cells.size(), by_row ? table.rows.size() : names.size(), by_row ? "rows" : "columns");
+  if (!by_row || cells.size() > table.rows.size())
+    check_count(action, keyword, cells.size(), by_row ? table.rows.size() : names.size(), by_row ? "rows" : "columns");
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto column = static_cast<std::size_t>(table.add_column(names[i]));
-    for (std::size_t row = 0; row < table.rows.size(); ++row) table.rows[row][column] = cells[by_row ? row : i];
+    for (std::size_t row = 0; row < (by_row ? cells.size() : table.rows.size()); ++row)
+      table.rows[row][column] = cells[by_row ? row : i];
   }
 }
 
@@ -130,6 +132,9 @@ void compute(Table& table, const Keywords& action) {
 double reduction(const std::string& type, const std::vector<double>& numbers) {
   if (type == "MAXI") return greatest(numbers);
   if (type == "MINI") return least(numbers);
+  if (type == "MAXI_ABS") return greatest_size(numbers);
+  if (type == "MINI_ABS") return least_size(numbers);
+  if (type == "SOMM_ABS") return sum_of_sizes(numbers);
   return type == "SOMM" ? sum_of(numbers) : mean_of(numbers);
 }
 

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -90,13 +91,17 @@ void add_place(Row& row, double x, double y, double z) {
 
 Row head_of(const Keywords& source, const FieldSource& from) {
   Row head = from.columns;
+  for (auto& [column, cell] : head)
+    if (column == "RESU") column = "RESULTAT";
   if (source.has("INTITULE")) head.insert(head.begin(), {"INTITULE", source.text("INTITULE")});
   return head;
 }
 
 void add_nodes(Table& table, const Keywords& source, const FieldSource& from, const std::vector<int>& components) {
   const auto& field = std::get<solver::NodalField>(from.field);
-  for (const int node : selected_nodes(source, from.mesh)) {
+  std::vector<int> nodes = selected_nodes(source, from.mesh);
+  std::ranges::sort(nodes);
+  for (const int node : nodes) {
     Row row = head_of(source, from);
     const solver::Point& at = from.mesh.nodes[node];
     row.emplace_back("NOEUD", table_node(from.mesh, node));
@@ -131,7 +136,7 @@ void add_cells(Table& table, const Keywords& source, const FieldSource& from, co
         row.emplace_back("NOEUD", table_node(from.mesh, from.mesh.cell(cell)[point]));
       if (field.support == solver::Support::gauss_point)
         row.emplace_back("POINT", static_cast<std::int64_t>(point + 1));
-      if (each > 1) row.emplace_back("SOUS_POINT", static_cast<std::int64_t>(value % each + 1));
+      row.emplace_back("SOUS_POINT", static_cast<std::int64_t>(value % each + 1));
       if (placed) add_place(row, places.at(cell, point, 0), places.at(cell, point, 1), places.at(cell, point, 2));
       add_values(table, std::move(row), from.field, components,
                  [&](int component) { return field.at(cell, value, component); });
@@ -147,7 +152,7 @@ std::vector<int> known_indices(const Keywords& source, const std::vector<std::st
   return indices;
 }
 
-// One row a node, or a point of a cell, that carries any of the components (U4.33.02).
+// One row a node, by rising numbers, or a value of a cell, that carries any of the components (U4.33.02).
 void add_field(Table& table, const Keywords& source, interpreter::Diagnostics& diagnostics) {
   for (const FieldSource& from : field_sources(source, ValuesAPoint::any)) {
     const std::vector<std::string>& all = solver::components_of(from.field);

@@ -11,6 +11,7 @@
 #include "commands/model/angles.hpp"
 #include "commands/points.hpp"
 #include "commands/selection.hpp"
+#include "commands/tables/extreme_rows.hpp"
 #include "commands/tables/reductions.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
@@ -390,30 +391,11 @@ void average_of_nodes(Table& table, const Keywords& action, const Reading& readi
     add_mean(table, reading.head, reading.field.components[component], profile(reading, component).values);
 }
 
-// `where`: the columns that say where an extreme lies.
-template <class Where>
-void add_extremes(Table& table, const Row& head, const std::string& component, const solver::Extremes& found,
-                  Where where) {
-  for (const auto& [name, extreme] :
-       {std::pair("MAX", found.greatest), std::pair("MIN", found.least),
-        std::pair("MAXI_ABS", found.greatest_magnitude), std::pair("MINI_ABS", found.least_magnitude)}) {
-    Row row = head;
-    row.emplace_back("EXTREMA", std::string(name));
-    const Row place = where(extreme);
-    row.insert(row.end(), place.begin(), place.end());
-    row.insert(row.end(), {{"CMP", component}, {"VALE", extreme.value}});
-    table.add_row(row);
-  }
-}
-
 void list_extremes(Table& table, const Keywords& action, const Reading& reading) {
-  for (const int component : wanted_components(action, reading.field)) {
-    const auto found = solver::extremes(reading.field, component, std::span<const int>(reading.nodes));
-    if (found)
-      add_extremes(table, reading.head, reading.field.components[component], *found, [&](const solver::Extreme& at) {
-        return Row{{"NOEUD", table_node(reading.mesh, at.place)}};
-      });
-  }
+  const auto all = extremes_of(reading.field, wanted_components(action, reading.field), reading.nodes);
+  add_extremes(table, reading.head, all, [&](const solver::Extreme& at) {
+    return Row{{"NOEUD", table_node(reading.mesh, at.place)}};
+  });
 }
 
 // --- values as cells have them: only what is extracted is averaged at nodes (U4.81.21)
@@ -437,13 +419,13 @@ void add_of_cells(Table& table, const Keywords& action, const FieldSource& sourc
     if (field.support == solver::Support::gauss_point) row.emplace_back("POINT", std::int64_t{at.point + 1});
     return row;
   };
-  for (const int component : chosen_components(action, field.components)) {
+  const auto components = chosen_components(action, field.components);
+  if (operation == "EXTREMA") {
+    add_extremes(table, head, extremes_of(source.field, components, cells), where);
+    return;
+  }
+  for (const int component : components) {
     const std::string& name = field.components[static_cast<std::size_t>(component)];
-    if (operation == "EXTREMA") {
-      if (const auto found = solver::extremes(source.field, component, std::span<const int>(cells)))
-        add_extremes(table, head, name, *found, where);
-      continue;
-    }
     std::vector<double> values;
     for (const int cell : cells)
       for (int point = 0; point < field.points(cell); ++point)

@@ -126,7 +126,7 @@ void read_steps(const Call& call, const std::vector<const solver::ResultStep*>& 
   }
 }
 
-// INTERP_NUME='OUI': the instants asked for on the polyline through all steps.
+// INTERP_NUME='LIN': the instants asked for on the polyline through all steps.
 void read_between_steps(const Call& call, const solver::Result& result, solver::TabulatedFunction& function) {
   std::vector<const solver::ResultStep*> steps;
   for (const solver::ResultStep& step : result.steps) steps.push_back(&step);
@@ -153,7 +153,7 @@ void read_result(const Call& call, solver::TabulatedFunction& function, interpre
   const solver::Result& result = call.data<ResultConcept>("RESULTAT").result;
   function.parameter = "INST";
   warn_of_idle_places_of(call, diagnostics);
-  const bool between = call.text("INTERP_NUME") == "OUI" && (call.given("LIST_INST") || call.given("INST"));
+  const bool between = call.text("INTERP_NUME") == "LIN" && (call.given("LIST_INST") || call.given("INST"));
   if (between) {
     read_between_steps(call, result, function);
   } else {

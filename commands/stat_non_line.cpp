@@ -334,8 +334,13 @@ Product stat_non_line(const Call& call, Context& context) {
     if (report.event.empty()) last = report;
     if (show) show(report);
   };
-  // What goes on with steps that are there has no initial one.
-  const auto after_step = [&, number = product->result.steps.empty() ? 0 : 1](solver::Result& result) mutable {
+  // What goes on with steps that are there begins with the last of them.
+  const bool goes_on = !product->result.steps.empty();
+  if (goes_on && product->observations) {
+    observer.observe(0, product->observations->table);
+    product->observations->end_step(product->result.steps.back().order);
+  }
+  const auto after_step = [&, number = goes_on ? 1 : 0](solver::Result& result) mutable {
     if (product->observations) observer.observe(number, product->observations->table);
     ++number;
     computed.push_back(result.steps.back().instant);

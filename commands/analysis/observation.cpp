@@ -24,10 +24,11 @@ namespace {
 
 using interpreter::DiagnosticError;
 using interpreter::Keywords;
-// A value and the columns that say where it was read.
+// A value, where it comes among all places, absent values included, and the columns that say where it was read.
 struct Sample {
   Row place;
   double value;
+  std::size_t turn = 0;
 };
 
 const PlaceKeywords places_of_nodes = {"", "GROUP_NO", "NOEUD", "GROUP_MA", "MAILLE"};
@@ -47,12 +48,19 @@ std::vector<int> all_indices(int count) {
   return indices;
 }
 
+std::vector<int> by_number(std::vector<int> indices) {
+  std::ranges::sort(indices);
+  return indices;
+}
+
 std::vector<Sample> samples_of(const solver::NodalField& field, int component, const solver::Mesh& mesh,
                                const std::vector<int>& nodes) {
   std::vector<Sample> samples;
+  std::size_t turn = 0;
   for (const int node : nodes) {
     if (const double value = field.at(node, component); !std::isnan(value))
-      samples.push_back({{{"NOEUD", table_node(mesh, node)}}, value});
+      samples.push_back({{{"NOEUD", table_node(mesh, node)}}, value, turn});
+    ++turn;
   }
   return samples;
 }
@@ -70,6 +78,7 @@ std::vector<int> chosen_of(const Keywords& keywords, const char* keyword, int co
 std::vector<Sample> samples_of(const solver::ElementField& field, int component, const solver::Mesh& mesh,
                                const std::vector<int>& cells, const Keywords& keywords) {
   std::vector<Sample> samples;
+  std::size_t turn = 0;
   const std::string& over_points = keywords.text("EVAL_ELGA");
   for (const int cell : cells) {
     std::vector<Sample> own;
@@ -77,13 +86,14 @@ std::vector<Sample> samples_of(const solver::ElementField& field, int component,
     for (const int point : chosen_of(keywords, "POINT", field.points(cell) / each)) {
       for (const int place : chosen_of(keywords, "SOUS_POINT", each)) {
         const double value = field.at(cell, point * each + place, component);
+        ++turn;
         if (std::isnan(value)) continue;
-        own.push_back({{{"MAILLE", table_cell(mesh, cell)}, {"POINT", std::int64_t{point + 1}}}, value});
-        if (each > 1) own.back().place.emplace_back("SOUS_POINT", std::int64_t{place + 1});
+        own.push_back({{{"MAILLE", table_cell(mesh, cell)}, {"POINT", std::int64_t{point + 1}}}, value, turn});
+        own.back().place.emplace_back("SOUS_POINT", std::int64_t{place + 1});
       }
     }
     if (over_points != "VALE" && !own.empty()) {
-      own = {{{{"MAILLE", table_cell(mesh, cell)}}, reduced(over_points, own)}};
+      own = {{{{"MAILLE", table_cell(mesh, cell)}}, reduced(over_points, own), turn}};
     }
     samples.insert(samples.end(), own.begin(), own.end());
   }
@@ -120,17 +130,19 @@ void check_place(const Keywords& keywords, const solver::Field& field) {
       keywords.span, "name cells by GROUP_MA or MAILLE");
 }
 
+std::size_t rows_of(const std::optional<StepTable>& kept) { return kept ? kept->table.rows.size() : 0; }
+
 }  // namespace
 
 Observer::Observer(const interpreter::Call& call, const ResultConcept& computed)
-    : computed_(computed), mesh_(computed.result.mesh()) {
+    : computed_(computed), mesh_(computed.result.mesh()), rows_before_(rows_of(computed.observations)) {
   for (const Keywords& given : call.factors("OBSERVATION")) {
     const bool everywhere = !names_a_place(given, places_of_nodes);
     Observation observation{
         given,
         given.has("TITRE") ? given.text("TITRE") : fmt::format("OBSERVATION_{}", observations_.size() + 1),
-        everywhere ? all_indices(mesh_.node_count()) : selected_nodes(given, mesh_, places_of_nodes),
-        everywhere ? all_indices(mesh_.cell_count()) : selected_cells(given, mesh_, cell_places),
+        everywhere ? all_indices(mesh_.node_count()) : by_number(selected_nodes(given, mesh_, places_of_nodes)),
+        everywhere ? all_indices(mesh_.cell_count()) : by_number(selected_cells(given, mesh_, cell_places)),
         given.reals("INST"),
         instant_tolerance(given)};
     if (given.has("LIST_INST")) observation.instants = given.data<ListConcept>("LIST_INST").values;
@@ -199,25 +211,32 @@ void Observer::observe(Observation& observation, const solver::ResultStep& step,
   const auto& components = solver::components_of(field);
   const std::string& operation = keywords.text("EVAL_CHAM");
   const bool by_formula = keywords.text("EVAL_CMP") == "FORMULE";
+  const auto* nodal = std::get_if<solver::NodalField>(&field);
+  observation.at_nodes = nodal != nullptr;
+  std::vector<std::pair<int, Sample>> found;  // with their components
   for (const int component : by_formula ? std::vector<int>{0} : chosen_components(keywords, components)) {
-    const auto* nodal = std::get_if<solver::NodalField>(&field);
-    observation.at_nodes = nodal != nullptr;
     std::vector<Sample> samples = nodal != nullptr ? samples_of(*nodal, component, mesh_, observation.nodes)
                                                    : samples_of(std::get<solver::ElementField>(field), component, mesh_,
                                                                 observation.cells, keywords);
     if (operation != "VALE" && !samples.empty()) samples = {{{}, reduced(operation, samples)}};
-    for (const Sample& sample : samples) {
-      Row row = {{"NOM_OBSERVATION", observation.name},
-                 {"NUME_OBSE", std::int64_t{number}},
-                 {"INST", step.instant},
-                 {"NOM_CHAM", keywords.text("NOM_CHAM")},
-                 {"EVAL_CHAM", operation},
-                 {"NOM_CMP", components[static_cast<std::size_t>(component)]}};
-      row.insert(row.end(), sample.place.begin(), sample.place.end());
-      row.emplace_back("VALE", sample.value);
-      table.add_row(row);
-      ++observation.rows;
-    }
+    for (Sample& sample : samples) found.emplace_back(component, std::move(sample));
+  }
+  std::ranges::stable_sort(found, {}, [](const auto& each) { return each.second.turn; });
+  for (const auto& [component, sample] : found) {
+    Row row = {{"NOM_OBSERVATION", observation.name},
+               {"TYPE_OBJET", "R"},
+               {"NUME_REUSE", static_cast<std::int64_t>(computed_.earlier.size())},
+               {"NUME_OBSE", static_cast<std::int64_t>(table.rows.size() - rows_before_) + 1},
+               {"INST", step.instant},
+               {"NOM_CHAM", keywords.text("NOM_CHAM")},
+               {"EVAL_CHAM", operation},
+               {"NOM_CMP", components[static_cast<std::size_t>(component)]}};
+    row.insert(row.end(), sample.place.begin(), sample.place.end());
+    if (nodal == nullptr && keywords.text("EVAL_ELGA") != "VALE")
+      row.emplace_back("EVAL_ELGA", keywords.text("EVAL_ELGA"));
+    row.emplace_back("VALE", sample.value);
+    table.add_row(row);
+    ++observation.rows;
   }
 }
 

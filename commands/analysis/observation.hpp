@@ -20,9 +20,9 @@ class Observer {
   Observer(const interpreter::Call& call, const ResultConcept& computed);
 
   bool empty() const { return observations_.empty(); }
-  /// Appends the rows of the last step; `number` counts the steps, 0 being the initial state. Fields that the step does
-  /// not hold are computed as CALC_CHAMP does. Throws DiagnosticError `unknown-field`, `unknown-component`,
-  /// `wrong-type`.
+  /// Appends the rows of the last step: node by node or point by point, NUME_OBSE counting the rows of a computation
+  /// and NUME_REUSE computations; `number` counts the steps, 0 being the initial state. Fields that the step does not
+  /// hold are computed as CALC_CHAMP does. Throws DiagnosticError `unknown-field`, `unknown-component`, `wrong-type`.
   void observe(int number, Table& table);
 
   /// Tells of occurrences that have given no row, and of instants among the `computed` ones of all steps at which none
@@ -53,6 +53,7 @@ class Observer {
 
   const ResultConcept& computed_;
   const solver::Mesh& mesh_;
+  std::size_t rows_before_;  ///< rows of earlier computations of the same result: NUME_OBSE counts from them
   std::vector<Observation> observations_;
 };
 

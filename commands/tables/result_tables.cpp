@@ -1,14 +1,19 @@
 #include "commands/tables/result_tables.hpp"
 
+#include <algorithm>
+
 namespace comma::commands {
 
 namespace {
 
-Table computation(const solver::Result& result) {
+// One row a step, the initial state (which has no parameters) included.
+Table computation(const ResultConcept& data) {
   Table table;
-  for (const solver::ResultStep& step : result.steps) {
-    if (step.order == 0) continue;  // the initial state was not computed
-    std::vector<std::pair<std::string, Cell>> row = {{"NUME_ORDRE", std::int64_t{step.order}}, {"INST", step.instant}};
+  for (const solver::ResultStep& step : data.result.steps) {
+    const auto later =
+        std::ranges::count_if(data.earlier, [&](const EarlierPhase& phase) { return phase.last_order < step.order; });
+    std::vector<std::pair<std::string, Cell>> row = {
+        {"NUME_ORDRE", std::int64_t{step.order}}, {"NUME_REUSE", std::int64_t{later}}, {"INST", step.instant}};
     for (const auto& [name, value] : step.parameters) row.emplace_back(name, value);
     table.add_row(row);
   }
@@ -23,7 +28,7 @@ void StepTable::forget_after(int order) {
 }
 
 std::optional<Table> table_of_result(const ResultConcept& data, std::string_view name) {
-  if (name == "PARA_CALC") return computation(data.result);
+  if (name == "PARA_CALC") return computation(data);
   const auto kept = [](const std::optional<StepTable>& any) { return any ? std::optional(any->table) : std::nullopt; };
   if (name == "ANALYSE_MODALE") return kept(data.modes);
   return name == "OBSERVATION" ? kept(data.observations) : std::nullopt;

@@ -164,15 +164,16 @@ Table filtered(const Table& table, const Keywords& filter) {
 
 void sort_rows(Table& table, const Keywords& keywords) {
   const auto columns = columns_of(table, keywords);
-  const bool upwards = keywords.text("ORDRE") == "CROISSANT";
   std::stable_sort(table.rows.begin(), table.rows.end(), [&](const auto& a, const auto& b) {
     for (const int column : columns) {
       const Cell &left = a[static_cast<std::size_t>(column)], &right = b[static_cast<std::size_t>(column)];
-      if (less(left, right)) return upwards;
-      if (less(right, left)) return !upwards;
+      if (less(left, right)) return true;
+      if (less(right, left)) return false;
     }
     return false;
   });
+  // The whole order turns round, that of equal rows too, as in Code_Aster 17.3.
+  if (keywords.text("ORDRE") != "CROISSANT") std::ranges::reverse(table.rows);
 }
 
 std::vector<double> numbers_in(const Table& table, int column, const Keywords& keywords) {

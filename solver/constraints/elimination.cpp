@@ -78,7 +78,8 @@ Elimination::Elimination(const Mesh& mesh, const DofMap& dofs, std::span<const A
 
 SparseRow Elimination::add_condition(const Mesh& mesh, const DofMap& dofs, const AppliedLoad& applied,
                                      const LinearRelation& relation) {
-  const Point at = relation.terms.empty() ? Point{} : mesh.nodes[relation.terms.front().node];
+  const auto last = std::ranges::max_element(relation.terms, {}, &LinearRelation::Term::node);
+  const Point at = last == relation.terms.end() ? Point{} : mesh.nodes[static_cast<std::size_t>(last->node)];
   const bool constant = !relation.function && !applied.multiplier && !applied.differential;
   conditions_.push_back({applied.load,
                          &relation,

@@ -47,10 +47,11 @@ Interpolation interpolate(const BeamInterpolation& beam, double position) {
 Eigen::Matrix<double, 12, 1> end_forces(const BeamInterpolation& beam, const LineLoad& load) {
   // On cubic displacements: four points are exact to degree 7.
   static const Quadrature points = quadrature(CellType::seg2, "FPG4");
+  const BeamInterpolation stiff_in_shear = {beam.length, 0.0, 0.0};
   Eigen::Matrix<double, 12, 1> forces = Eigen::Matrix<double, 12, 1>::Zero();
   for (const QuadraturePoint& point : points) {
     const double s = 0.5 * (1.0 + point.at[0]);
-    forces += 0.5 * point.weight * beam.length * (interpolate(beam, s).transpose() * load(s));
+    forces += 0.5 * point.weight * beam.length * (interpolate(stiff_in_shear, s).transpose() * load(s));
   }
   return forces;
 }

@@ -27,8 +27,9 @@ Eigen::Matrix<double, 6, 12> interpolate(const BeamInterpolation& beam, double p
 /// A load per length in own axes (N VY VZ MT MFY MFZ) at x = position * length.
 using LineLoad = std::function<Eigen::Matrix<double, 6, 1>(double position)>;
 
-/// Forces and moments at the ends (own axes) for a load that varies with at most the fourth power of the position. They
-/// give the exact displacements at the ends.
+/// Forces and moments at the ends (own axes) that do the work of a load, which varies with at most the fourth power of
+/// the position, on the deflections of Euler's beam, whatever the softening (so has it Code_Aster 17.3). They give the
+/// exact displacements at the ends of Euler's beams, and of others under a force that does not vary.
 Eigen::Matrix<double, 12, 1> end_forces(const BeamInterpolation& beam, const LineLoad& load);
 
 }  // namespace comma::solver

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/box_shear.hpp"
 #include "solver/elements/shear_coefficient.hpp"
 #include "solver/error.hpp"
 
@@ -47,7 +48,15 @@ void add_hollow_torsion(BeamSection& section, const Rectangle& r) {
   const double y = r.height_y - r.thickness_y;
   const double z = r.height_z - r.thickness_z;
   section.torsion = 2.0 * y * y * z * z / (y / r.thickness_z + z / r.thickness_y);
-  section.torsion_reach = section.torsion / (2.0 * y * z * std::min(r.thickness_y, r.thickness_z));
+  // Code_Aster 17.3 has the wall across z, which need not be the thinner one, and the area of the hole.
+  const double hole = (r.height_y - 2.0 * r.thickness_y) * (r.height_z - 2.0 * r.thickness_z);
+  section.torsion_reach = section.torsion / (2.0 * r.thickness_z * hole);
+}
+
+/// For a force along the first side: outer and inner size of both sides.
+double hollow_shear(double along, double inner_along, double across, double inner_across) {
+  if (const auto known = box_shear(inner_along / along, inner_across / across)) return *known;
+  return shear_coefficient_along_z({across / 2.0, along / 2.0, inner_across / 2.0, inner_along / 2.0});
 }
 
 /// Cowper's factor of a tube without lateral contraction, by the ratio of its radii. Code_Aster 17.3 interpolates it
@@ -94,8 +103,8 @@ BeamSection rectangular_section(const Rectangle& r) {
     add_solid_torsion(section, std::max(section.reach_y, section.reach_z), std::min(section.reach_y, section.reach_z));
   } else {
     add_hollow_torsion(section, r);
-    section.shear_y = shear_coefficient_along_z({section.reach_z, section.reach_y, inner_z / 2.0, inner_y / 2.0});
-    section.shear_z = shear_coefficient_along_z({section.reach_y, section.reach_z, inner_y / 2.0, inner_z / 2.0});
+    section.shear_y = hollow_shear(r.height_y, inner_y, r.height_z, inner_z);
+    section.shear_z = hollow_shear(r.height_z, inner_z, r.height_y, inner_y);
   }
   return section;
 }

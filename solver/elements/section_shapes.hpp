@@ -14,7 +14,8 @@ struct Rectangle {
 };
 
 /// Torsion of a solid rectangle by the approximation of Roark (Formulas for Stress and Strain, table 20, within 0.5 %);
-/// of a hollow one by Bredt for thin walls. Shear: 6/5 for a solid one, shear_coefficient_along_z() for a hollow one.
+/// of a hollow one by Bredt for thin walls. Shear: 6/5 for a solid one, box_shear() for a hollow one,
+/// shear_coefficient_along_z() where its walls are too thin for that.
 /// Throws Error `invalid-section` unless lengths are positive and the walls leave a hole.
 BeamSection rectangular_section(const Rectangle& rectangle);
 

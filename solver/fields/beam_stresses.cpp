@@ -125,9 +125,12 @@ ElementField generalised_strains(const FieldInput& input, const ElementField& fo
                       const IsotropicElasticity& material = isotropic(input, cell);
                       const IsotropicModuli m = moduli(material, at);
                       const double shear = m.young / (2 * (1 + m.poisson));
-                      target[0] = f.n / (m.young * section.area) + inelastic_axial_strain(material, at) + initial[0];
+                      target[0] = f.n / (m.young * section.area) + initial[0];
                       const Formulation formulation = input.model.formulations[cell];
-                      if (!is_beam(formulation)) return;
+                      if (!is_beam(formulation)) {
+                        target[0] += inelastic_axial_strain(material, at);
+                        return;
+                      }
                       if (formulation == Formulation::timoshenko_beam) {
                         target[1] = f.vy * section.shear_y / (shear * section.area);
                         target[2] = f.vz * section.shear_z / (shear * section.area);

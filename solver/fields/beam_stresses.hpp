@@ -19,8 +19,8 @@ ElementField force_stresses(const FieldInput& input, const ElementField& forces)
 /// the rim of a circle. Throws Error `unsupported` naming a beam of general section, whose outline is not known.
 ElementField extreme_stresses(const FieldInput& input, const ElementField& forces);
 
-/// DEGE_ELNO, generalised strains: EPXX GAXY GAXZ GAT KY KZ, those of command variables and `imposed` ones (null: none)
-/// included. Shear angles are 0 in Euler's beams.
+/// DEGE_ELNO, generalised strains: EPXX GAXY GAXZ GAT KY KZ, `imposed` ones (null: none) included; those of command
+/// variables in bars alone (17.3 leaves them out of beams, and has none of bars). Shear angles are 0 in Euler's beams.
 ElementField generalised_strains(const FieldInput& input, const ElementField& forces,
                                  const ImposedStrains* imposed = nullptr);
 

@@ -55,8 +55,7 @@ std::vector<ExternalWork> external_work(const Result& result) {
   Pairs before;
   for (const ResultStep& step : result.steps) {
     Pairs now = pairs_of(step);
-    before.displacements.resize(now.displacements.size(), 0.0);
-    before.forces.resize(now.forces.size(), 0.0);
+    if (works.empty()) before = now;
     ExternalWork work{0.0, works.empty() ? 0.0 : works.back().real};
     for (std::size_t i = 0; i < now.forces.size(); ++i) {
       work.elastic += 0.5 * now.forces[i] * now.displacements[i];

@@ -28,14 +28,10 @@ bool goes_before(double value, double kept, ExtremeOverTime which) {
     case ExtremeOverTime::least:
       return value < kept;
     case ExtremeOverTime::least_magnitude:
-      return std::abs(value) < kept;
+      return std::abs(value) < std::abs(kept);
     default:
-      return std::abs(value) > kept;
+      return std::abs(value) > std::abs(kept);
   }
-}
-
-bool is_magnitude(ExtremeOverTime which) {
-  return which == ExtremeOverTime::greatest_magnitude || which == ExtremeOverTime::least_magnitude;
 }
 
 Field extreme_of_values(std::span<const FieldAtInstant> steps, ExtremeOverTime which, ExtremeShown shown) {
@@ -47,7 +43,7 @@ Field extreme_of_values(std::span<const FieldAtInstant> steps, ExtremeOverTime w
     const auto& values = values_of(*step.field);
     for (std::size_t i = 0; i < values.size(); ++i) {
       if (std::isnan(values[i]) || !goes_before(values[i], kept[i], which)) continue;
-      kept[i] = is_magnitude(which) ? std::abs(values[i]) : values[i];
+      kept[i] = values[i];
       shown_values[i] = shown == ExtremeShown::value ? kept[i] : step.instant;
     }
   }

@@ -16,7 +16,7 @@ struct FieldAtInstant {
 enum class ExtremeOverTime : std::uint8_t {
   greatest,
   least,
-  greatest_magnitude,  ///< the magnitude itself
+  greatest_magnitude,  ///< the value that has it, with its sign
   least_magnitude,
   longest_translation  ///< all components of the step at which DX DY DZ of the place are longest
 };

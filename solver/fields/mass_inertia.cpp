@@ -108,9 +108,10 @@ class Moments {
     input_.state.sample(cell, nodes, half, VariableState::all_points, at);
     const double per_volume = density(*material_of(input_, cell).elasticity, at);
     const double length = (b - a).norm();
-    // Areas go with the square of the place at most, second moments with its fourth power: three points are exact.
-    static const Quadrature points = quadrature(CellType::seg2, "FPG3");
-    for (const QuadraturePoint& point : points) {
+    // Areas of beams go with the square of the place at most, second moments with its fourth power: three points are
+    // exact. Code_Aster 17.3 has the mass of a bar in its middle.
+    static const Quadrature exact = quadrature(CellType::seg2, "FPG3"), middle = quadrature(CellType::seg2, "FPG1");
+    for (const QuadraturePoint& point : beam ? exact : middle) {
       const double s = 0.5 * (1.0 + point.at[0]);
       const double volume_density = 0.5 * point.weight * length * per_volume;
       const BeamSection here = section_at(section, s);

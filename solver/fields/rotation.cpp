@@ -168,7 +168,7 @@ NodeAxes polar_axes(const Mesh& mesh) {
     Eigen::Matrix3d axes;
     axes.row(0) = radial.normalized();
     axes.row(2) = Eigen::Vector3d::UnitZ();
-    axes.row(1) = axes.row(2).cross(axes.row(0));
+    axes.row(1) = axes.row(0).cross(axes.row(2));
     return axes;
   };
 }

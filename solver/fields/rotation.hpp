@@ -31,8 +31,8 @@ bool has_own_axes(const NodalField& field, std::string_view component);
 /// the line.
 NodeAxes revolution_axes(const Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis);
 
-/// The axes of polar coordinates in the plane of X and Y about the origin: r, then the angle, then Z. Throws Error
-/// `zero-vector` when asked for a node on the Z axis.
+/// Axes in the plane of X and Y about the origin: r, then the direction in which the angle falls, then Z (which makes
+/// the three left-handed; Code_Aster 17.3 has them so). Throws Error `zero-vector` when asked for a node on the Z axis.
 NodeAxes polar_axes(const Mesh& mesh);
 
 /// Whether there are axes at a node: not on the line that axes go round.

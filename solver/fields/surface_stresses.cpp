@@ -110,8 +110,8 @@ Values resolve_on_edge(const Eigen::Matrix3d& stress, const Eigen::Vector3d& n) 
   const Eigen::Vector3d t = Eigen::Vector3d::UnitZ().cross(n);
   const Eigen::Vector3d across = stress * n;
   const Eigen::Vector3d along = stress * t;
-  return {across[0], across[1], across[2],    n.dot(across), along[0], along[1], along[2], along[0],
-          along[1],  along[2],  t.dot(along), 0.0,           0.0,      0.0,      0.0,      t.dot(across)};
+  return {across[0], across[1], across[2],    n.dot(across), along[0], along[1],     along[2],     along[0],
+          along[1],  along[2],  t.dot(along), 0.0,           0.0,      stress(2, 2), stress(2, 2), t.dot(across)};
 }
 
 Eigen::Vector3d first_edge(const Mesh& mesh, int face) {

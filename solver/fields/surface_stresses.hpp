@@ -18,8 +18,8 @@ namespace comma::solver {
 /// s: the second direction leans towards t, or with the sign of the shear towards s where s is nearer; the first one
 /// towards s, or else away from t.
 ///
-/// Edges: SIG_NX ... = S n, SIG_N = n . S n, SIG_TX ... = SIG_T1X ... = S t, SIG_T1 = t . S t, SIG_TN = t . S n; the
-/// rest is 0.
+/// Edges: SIG_NX ... = S n, SIG_N = n . S n, SIG_TX ... = SIG_T1X ... = S t, SIG_T1 = t . S t, SIG_TN = t . S n; SIG_T2
+/// and SIG_T2Z are the stress across the plane, SIG_T2X and SIG_T2Y 0.
 ElementField surface_stresses(const Mesh& mesh, const ElementField& stresses, std::span<const int> faces);
 
 }  // namespace comma::solver

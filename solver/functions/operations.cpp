@@ -197,7 +197,6 @@ TabulatedFunction inverse(const TabulatedFunction& function) {
   TabulatedFunction result = function;
   std::swap(result.x, result.y);
   std::swap(result.x_scale, result.y_scale);
-  std::swap(result.parameter, result.result);
   if (falls && !rises) {
     std::ranges::reverse(result.x);
     std::ranges::reverse(result.y);

@@ -53,8 +53,8 @@ double mean_between(const TabulatedFunction& function, double from, double to);
 /// The slope between the points before and after (17.3), at the ends of the one side. Throws Error `out-of-function`
 /// for a single point.
 TabulatedFunction derivative(const TabulatedFunction& function);
-/// x(y), with parameter and result, scales and ends exchanged. Throws Error `out-of-function` when the ordinates
-/// neither rise nor fall strictly.
+/// x(y), with scales and ends exchanged; the names of parameter and result stay (so has it Code_Aster 17.3). Throws
+/// Error `out-of-function` when the ordinates neither rise nor fall strictly.
 TabulatedFunction inverse(const TabulatedFunction& function);
 /// outer(inner(x)) at the abscissas of the inner function, whose shape it takes.
 TabulatedFunction composition(const TabulatedFunction& outer, const TabulatedFunction& inner);

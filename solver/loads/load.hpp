@@ -25,7 +25,7 @@ struct LinearRelation {
   };
   std::vector<Term> terms;
   double value = 0.0;
-  FieldFunction function;  ///< when set, replaces `value`: evaluated at the first term's node
+  FieldFunction function;  ///< when set, replaces `value`: evaluated at the node of highest number (17.3)
   Origin origin;
   int rigid_link = -1;  ///< the one of Load::rigid_links that it is part of, in small rotations
 };

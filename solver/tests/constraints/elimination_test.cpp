@@ -221,6 +221,16 @@ TEST_CASE("functions give the value at their node and time, multipliers scale it
   }
 }
 
+TEST_CASE("a function is taken at the node of highest number, whatever the order of the terms") {
+  const Model model = nodes_in_a_row(3);
+  const DofMap dofs(model);
+  LinearRelation sum = relation({{0, dx}, {2, dx}, {1, dx}}, 0.0);
+  sum.function = [](const Point& at, double) { return at[0]; };
+  const Elimination elimination(*model.mesh, dofs, applied({sum}));
+  const Eigen::VectorXd g = elimination.offset(0.0);
+  CHECK(g[dofs.dof(0, dx)] + g[dofs.dof(1, dx)] + g[dofs.dof(2, dx)] == 2.0);
+}
+
 TEST_CASE("conditions that agree at first and part later are an error at that time") {
   const Model model = nodes_in_a_row(1);
   const DofMap dofs(model);

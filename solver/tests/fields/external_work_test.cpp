@@ -31,6 +31,15 @@ TEST_CASE("the work of a force is the area under its curve", "[fields]") {
   CHECK(works[2].elastic == exactly(9.0));     // had it grown in proportion
 }
 
+TEST_CASE("work counts from the first step of a result, which may be loaded", "[fields]") {
+  Result result;
+  result.steps = {step(1, 2.0, 6.0), step(2, 3.0, 9.0)};
+  const auto works = external_work(result);
+  CHECK(works[0].real == 0.0);
+  CHECK(works[0].elastic == exactly(6.0));
+  CHECK(works[1].real == exactly(7.5));
+}
+
 TEST_CASE("without nodal forces there is no work to tell", "[fields]") {
   Result result;
   result.steps = {step(1, 2.0, 6.0)};

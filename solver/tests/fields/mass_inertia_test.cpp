@@ -78,6 +78,10 @@ TEST_CASE("a slanted rod: m L^2 / 12 across it, its section along it", "[fields]
   const Eigen::Vector3d along(0.6, 0.8, 0);
   CHECK(along.dot(result.inertia * along) == exactly(8 * 5 * (0.02 + 0.03)));
   CHECK(result.inertia(2, 2) == exactly(20 * 25 / 12.0 + 8 * 5 * 0.03));
+  // As a bar all of it is in the middle.
+  const MassInertia bar = of(Body(mesh, std::vector{Formulation::bar}, dense(8), properties));
+  CHECK(bar.mass == exactly(20));
+  CHECK(bar.inertia.norm() < 1e-12 * 20 * 25);
 }
 
 TEST_CASE("inertia about a corner, and principal moments of a turned brick", "[fields]") {

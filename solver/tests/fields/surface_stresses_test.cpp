@@ -82,6 +82,8 @@ TEST_CASE("a uniform stress on an edge of a plane body", "[fields]") {
   CHECK(value(skin, 1, "SIG_T1") == exactly(200));
   CHECK(value(skin, 1, "SIG_TX") == exactly(50));
   CHECK(value(skin, 1, "SIG_TN") == exactly(50));
+  CHECK(value(skin, 1, "SIG_T2") == exactly(30));
+  CHECK(value(skin, 1, "SIG_T2Z") == exactly(30));
 }
 
 TEST_CASE("a curved face is seen along its mean normal", "[fields]") {
