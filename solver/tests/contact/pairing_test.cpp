@@ -176,6 +176,19 @@ TEST_CASE("What elements add to both sides is taken off the gap") {
   CHECK(pairs[1].thickness == exactly(0.06));
 }
 
+TEST_CASE("What is added to either side is read where the slave node is") {
+  Table table({{0.5, 1, 0}, {1.5, 1, 0}});
+  const auto place = [](const Point& at, double time) { return 0.1 * at[0] + 0.01 * at[1] + time; };
+  for (const auto side : {&ContactZone::slave_thickness, &ContactZone::master_thickness}) {
+    Table other = table;
+    other.zone().*side = place;
+    for (const ContactPair& pair : other.pair()) {
+      const Point& at = other.mesh.nodes[static_cast<std::size_t>(pair.slave)];
+      CHECK(pair.thickness == exactly(place(at, 0.0)));
+    }
+  }
+}
+
 TEST_CASE("Beside a curved facet the normal is that of the mean of its tangents at the foot and at its end") {
   // Gaps that Code_Aster 17.3 has for these surfaces (CONT_NOEU, JEU), outside and inside the facet.
   struct Known {
