@@ -119,7 +119,7 @@ Vector3d place_on_facet(const Mesh& mesh, const ContactPoint& point, Positions p
 /// Nodes of SANS_GROUP_NO_FR count as sticking whatever they do.
 bool is_left_to_creep(const SolvedContact& contact, const ContactPoint& point) {
   const MixedZone& zone = contact.definition.zones[static_cast<std::size_t>(point.zone)].mixed;
-  return zone.rule == ContactRule::automatic && !zone.frictionless_direction &&
+  return zone.rule == ContactRule::automatic && contact.rows.leaves_out_all_directions(zone) &&
          std::ranges::find(zone.frictionless_nodes, point.node) != zone.frictionless_nodes.end();
 }
 
