@@ -29,6 +29,16 @@ solver::Mesh with_changed_cells(const Keywords& change, const solver::Mesh& mesh
   return solver::converted(mesh, cells, option == "TRIA6_7" ? Conversion::tria6_to_7 : Conversion::quad8_to_9);
 }
 
+// A file that serves several meshes asks each for what only some of them need.
+void tell_if_unchanged(const solver::Mesh& before, const solver::Mesh& after, const Keywords& change,
+                       const std::string& name, const Context& context) {
+  if (after.cell_types != before.cell_types) return;
+  context.diagnostics.alarm(
+      "unchanged-mesh",
+      "CREA_MAILLAGE: " + name + " leaves the mesh as it is: none of the cells is of a type that it changes",
+      change.span, "leave it out, or name other cells");
+}
+
 // RESTREINT keeps the groups that it names, unless TOUT_GROUP_MA or TOUT_GROUP_NO keeps all.
 template <class Groups>
 void keep_named(const Keywords& restriction, const std::string& names, const std::string& all, Groups& groups) {
@@ -57,12 +67,17 @@ solver::Mesh cut_slave_faces(const Keywords& cut, const solver::Mesh& mesh) {
 
 Product crea_maillage(const Call& call, Context& context) {
   solver::Mesh mesh = *call.data<MeshConcept>("MAILLAGE").mesh;
+  const auto take_converted = [&](solver::Mesh converted, const Keywords& change, const std::string& name) {
+    tell_if_unchanged(mesh, converted, change, name, context);
+    mesh = std::move(converted);
+  };
   for (const auto& [name, conversion] : conversions) {
     each_occurrence(call, name, [&](const Keywords& one) {
-      mesh = solver::converted(mesh, selected_cells(one, mesh), conversion);
+      take_converted(solver::converted(mesh, selected_cells(one, mesh), conversion), one, name);
     });
   }
-  each_occurrence(call, "MODI_MAILLE", [&](const Keywords& one) { mesh = with_changed_cells(one, mesh); });
+  each_occurrence(call, "MODI_MAILLE",
+                  [&](const Keywords& one) { take_converted(with_changed_cells(one, mesh), one, one.text("OPTION")); });
   each_occurrence(call, "CREA_MAILLE",
                   [&](const Keywords& one) { solver::double_cells(mesh, selected_cells(one, mesh), one.text("NOM")); });
   each_occurrence(call, "CREA_POI1", [&](const Keywords& one) {

@@ -78,7 +78,8 @@ void take_normal(const Keywords& zone, const std::string& side, solver::NormalRu
   vector = direction_of(zone, side + (fixed ? "_FIXE" : "_VECT_Y"));
 }
 
-// DIST_POUTRE and DIST_COQUE: both surfaces lie off the cells by what their elements take up.
+// DIST_POUTRE and DIST_COQUE: the slave surface lies off its cells by what their elements take up, the master surface
+// on its cells (Code_Aster 17.3).
 void take_half_thickness(const Keywords& keywords, const solver::Model& model, solver::ContactZone& zone) {
   const bool beams = keywords.text("DIST_POUTRE") == "OUI";
   const bool plates = keywords.text("DIST_COQUE") == "OUI";
@@ -91,15 +92,13 @@ void take_half_thickness(const Keywords& keywords, const solver::Model& model, s
   const auto& given = keywords.data<PropertiesConcept>("CARA_ELEM");
   if (given.model) require_mesh(keywords, "CARA_ELEM", given.model->mesh.get(), *model.mesh);
   const auto& properties = *given.properties;
-  for (const auto* cells : {&zone.master_cells, &zone.slave_cells}) {
-    if (beams) zone.half_thickness.merge(solver::beam_radii(model, properties, *cells));
-    if (plates) zone.half_thickness.merge(solver::plate_half_thicknesses(model, properties, *cells));
-  }
+  if (beams) zone.half_thickness = solver::beam_radii(model, properties, zone.slave_cells);
+  if (plates) zone.half_thickness.merge(solver::plate_half_thicknesses(model, properties, zone.slave_cells));
   if (zone.half_thickness.empty()) {
-    throw DiagnosticError("missing-cells",
-                          std::string("DEFI_CONTACT: no cell of this zone is ") + (beams ? "a beam" : "a plate"),
-                          keywords.span_of(keyword),
-                          std::string("leave out ") + keyword + ", or give the thickness by DIST_MAIT and DIST_ESCL");
+    throw DiagnosticError(
+        "missing-cells", std::string("DEFI_CONTACT: no slave cell of this zone is ") + (beams ? "a beam" : "a plate"),
+        keywords.span_of(keyword),
+        std::string("leave out ") + keyword + "; the thickness on the master side is given by DIST_MAIT");
   }
 }
 

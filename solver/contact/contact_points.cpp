@@ -62,8 +62,7 @@ class ZonePoints {
         continue;
       }
       face_master(at, before_.of(points.size()), point);
-      if (point.node >= 0)
-        at_nodes_.emplace(point.node, AtNode{points.size(), half_thickness(zone_, mesh_, cell, point.shape)});
+      if (point.node >= 0) at_nodes_.emplace(point.node, AtNode{points.size(), half_thickness(zone_, cell)});
       points.push_back(point);
     }
   }
@@ -77,9 +76,8 @@ class ZonePoints {
   /// Faces of different thickness share the multiplier of the node, which sees the mean of their gaps.
   void add(const ContactPoint& further, AtNode& known, ContactPoint& point) const {
     const double weight = point.weight + further.weight;
-    const double mean = (point.weight * known.half_thickness +
-                         further.weight * half_thickness(zone_, mesh_, further.cell, further.shape)) /
-                        weight;
+    const double mean =
+        (point.weight * known.half_thickness + further.weight * half_thickness(zone_, further.cell)) / weight;
     if (point.facet >= 0) point.thickness += mean - known.half_thickness;
     known.half_thickness = mean;
     point.weight = weight;
@@ -163,9 +161,8 @@ class ZonePoints {
     point.foot = hit->projection.foot;
     point.kept = hit->kept;
     point.normal = search_.normal(*hit, own.outward.value_or(Vector3d::Zero()));
-    point.thickness = thickness_at(zone_, here, point.foot, time_) +
-                      half_thickness(zone_, mesh_, point.facet, point.master_shape) +
-                      half_thickness(zone_, mesh_, point.cell, point.shape);
+    point.thickness =
+        thickness_at(zone_, here, time_) + half_thickness(zone_, point.facet) + half_thickness(zone_, point.cell);
   }
 
   /// INTEGRATION='AUTO' is the discrete formulation's pairing of nodes (Code_Aster 17.3): the faces at a node have one

@@ -71,13 +71,6 @@ struct MixedZone {
 /// To what a slave node is paired: the nearest facet, or the nearest node (APPARIEMENT='NODAL').
 enum class PairingRule : std::uint8_t { facet, node };
 
-/// What a cell of a contact surface adds to either side of it (DIST_POUTRE, DIST_COQUE): the radius of a beam at its
-/// ends, half of the thickness of a plate.
-struct HalfThickness {
-  double first = 0.0;
-  double last = 0.0;
-};
-
 /// A pair of surfaces. Slave nodes may not enter master facets.
 struct ContactZone {
   std::vector<int> master_cells;
@@ -101,8 +94,9 @@ struct ContactZone {
   FieldFunction master_thickness;  ///< DIST_MAIT: what is added on the master's side, a length; may be empty
   FieldFunction slave_thickness;   ///< DIST_ESCL
   bool thickness_changes = false;  ///< either depends on time
-  /// Of cells of both surfaces, what their elements add; those not named add nothing.
-  std::unordered_map<int, HalfThickness> half_thickness;
+  /// What the elements of cells add to either side of them (DIST_POUTRE, DIST_COQUE): the radius of a beam, half of the
+  /// thickness of a plate. Those not named add nothing.
+  std::unordered_map<int, double> half_thickness;
   MixedZone mixed;  ///< for zones that is_condensed() speaks of
 };
 

@@ -261,11 +261,11 @@ Vector3d FacetSearch::normal(const Hit& hit, const Vector3d& slave_outward) cons
   return contact_normal(zone_.normal_side, master_normal(hit), slave_outward);
 }
 
-double thickness_at(const ContactZone& zone, const Vector3d& slave, const Vector3d& foot, double time) {
-  const auto value = [time](const FieldFunction& function, const Vector3d& at) {
-    return function ? function({at[0], at[1], at[2]}, time) : 0.0;
+double thickness_at(const ContactZone& zone, const Vector3d& slave, double time) {
+  const auto value = [&](const FieldFunction& function) {
+    return function ? function({slave[0], slave[1], slave[2]}, time) : 0.0;
   };
-  return value(zone.slave_thickness, slave) + value(zone.master_thickness, foot);
+  return value(zone.slave_thickness) + value(zone.master_thickness);
 }
 
 Vector3d FacetSearch::slave_normal(int cell, const Eigen::Vector2d& xi) const {

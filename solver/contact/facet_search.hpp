@@ -103,8 +103,8 @@ class FacetSearch {
   std::unordered_map<int, Eigen::Vector3d> slave_node_normals_;  ///< where the slave has a say in normals
 };
 
-/// What a zone adds to both surfaces at a slave point and its foot, at a time (DIST_ESCL, DIST_MAIT), beside what the
-/// elements there do.
-double thickness_at(const ContactZone& zone, const Eigen::Vector3d& slave, const Eigen::Vector3d& foot, double time);
+/// What a zone adds to both surfaces before a slave point, at a time (DIST_ESCL, DIST_MAIT), beside what the elements
+/// there do. Both are functions of where the slave point is (Code_Aster 17.3).
+double thickness_at(const ContactZone& zone, const Eigen::Vector3d& slave, double time);
 
 }  // namespace comma::solver

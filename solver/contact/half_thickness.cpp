@@ -31,22 +31,22 @@ double radius_of(const BeamSection& section, const Mesh& mesh, int cell) {
 
 }  // namespace
 
-std::unordered_map<int, HalfThickness> beam_radii(const Model& model, const ElementProperties& properties,
-                                                  std::span<const int> cells) {
-  std::unordered_map<int, HalfThickness> radii;
+std::unordered_map<int, double> beam_radii(const Model& model, const ElementProperties& properties,
+                                           std::span<const int> cells) {
+  std::unordered_map<int, double> radii;
   const Mesh& mesh = *model.mesh;
   for (const int cell : cells) {
     if (!is_beam(model.formulations[static_cast<std::size_t>(cell)])) continue;
     const BeamSection& section = section_of(properties.sections, mesh, cell);
     const double first = radius_of(section, mesh, cell);
-    radii[cell] = {first, section.end ? radius_of(*section.end, mesh, cell) : first};
+    radii[cell] = section.end ? 0.5 * (first + radius_of(*section.end, mesh, cell)) : first;
   }
   return radii;
 }
 
-std::unordered_map<int, HalfThickness> plate_half_thicknesses(const Model& model, const ElementProperties& properties,
-                                                              std::span<const int> cells) {
-  std::unordered_map<int, HalfThickness> halves;
+std::unordered_map<int, double> plate_half_thicknesses(const Model& model, const ElementProperties& properties,
+                                                       std::span<const int> cells) {
+  std::unordered_map<int, double> halves;
   for (const int cell : cells) {
     if (!is_plate(model.formulations[static_cast<std::size_t>(cell)])) continue;
     const auto& section = section_of(properties.plates, *model.mesh, cell);
@@ -56,32 +56,23 @@ std::unordered_map<int, HalfThickness> plate_half_thicknesses(const Model& model
                               "of its thickness off the cell",
                               model.mesh->cell_name(cell), section.offset),
                   "give the distance of the face from the cell by DIST_ESCL or DIST_MAIT");
-    const double half = 0.5 * section.thickness;
-    halves[cell] = {half, half};
+    halves[cell] = 0.5 * section.thickness;
   }
   return halves;
 }
 
-double half_thickness(const ContactZone& zone, const Mesh& mesh, int cell,
-                      const std::array<double, max_facet_nodes>& shape) {
+double half_thickness(const ContactZone& zone, int cell) {
   const auto found = zone.half_thickness.find(cell);
-  if (found == zone.half_thickness.end()) return 0.0;
-  const HalfThickness& own = found->second;
-  if (dimension(mesh.cell_types[static_cast<std::size_t>(cell)]) != 1) return own.first;
-  // The middle node of a line has half of either end.
-  return (shape[0] + 0.5 * shape[2]) * own.first + (shape[1] + 0.5 * shape[2]) * own.last;
+  return found == zone.half_thickness.end() ? 0.0 : found->second;
 }
 
 std::unordered_map<int, double> nodal_half_thickness(const ContactZone& zone, const Mesh& mesh) {
   std::unordered_map<int, std::pair<double, int>> sums;
   for (const int cell : zone.slave_cells) {
     if (!zone.half_thickness.contains(cell)) continue;
-    const auto nodes = mesh.cell(cell);
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      std::array<double, max_facet_nodes> at_node{};
-      at_node[i] = 1.0;
-      auto& [sum, count] = sums[nodes[i]];
-      sum += half_thickness(zone, mesh, cell, at_node);
+    for (const int node : mesh.cell(cell)) {
+      auto& [sum, count] = sums[node];
+      sum += half_thickness(zone, cell);
       ++count;
     }
   }

@@ -147,7 +147,7 @@ class PatchGaps {
       const Vector3d foot = point_at(master.geometry(), at.master);
       const Vector3d normal = -normal_at(slave.geometry(), at.slave);
       const double area = at.weight * facet_stretch(slave.type, slave.span(), at.slave, is_axisymmetric_);
-      gaps_ += area * (normal.dot(here - foot) - thickness_at(zone_, here, foot, time_));
+      gaps_ += area * (normal.dot(here - foot) - thickness_at(zone_, here, time_));
       area_ += area;
       point_.normal += area * normal;
       point_.facet = facet;

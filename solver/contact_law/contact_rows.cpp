@@ -50,9 +50,11 @@ ContactRows::ContactRows(const ContactDefinition& definition, const Model& model
 
 void ContactRows::number_multipliers() {
   bool is_solid = false;
+  for (const ContactZone& each : definition_.zones)
+    for (const int node : mesh_.nodes_of_cells(each.slave_cells)) is_solid |= dofs_.dof(node, Component::dz) >= 0;
+  dimension_ = is_solid ? 3 : 2;
   for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) {
     const ContactZone& each = definition_.zones[zone];
-    for (const int node : mesh_.nodes_of_cells(each.slave_cells)) is_solid |= dofs_.dof(node, Component::dz) >= 0;
     if (each.mixed.local_average) {
       number_patches(static_cast<int>(zone));
       continue;
@@ -64,9 +66,14 @@ void ContactRows::number_multipliers() {
       if (!excluded.contains(node) &&
           multiplier_numbers_.emplace(Key(static_cast<int>(zone), node), static_cast<int>(smooth_.size())).second)
         smooth_.push_back(!(each.mixed.friction > 0.0) ||
-                          (frictionless.contains(node) && !each.mixed.frictionless_direction));
+                          (frictionless.contains(node) && leaves_out_all_directions(each.mixed)));
   }
-  dimension_ = is_solid ? 3 : 2;
+}
+
+bool ContactRows::leaves_out_all_directions(const MixedZone& zone) const {
+  if (!zone.frictionless_direction) return true;
+  const Eigen::Map<const Vector3d> direction(zone.frictionless_direction->data());
+  return dimension_ == 2 && direction.head<2>().norm() > empty_row_tolerance * direction.norm();
 }
 
 /// One a patch, at all nodes inside it.
@@ -85,9 +92,7 @@ CondensedPoint ContactRows::condensed(const ContactPoint& point) const {
   result.law = law_of(zone);
   result.bilateral = zone.mixed.bilateral;
   const auto excluded = excluded_direction(zone.mixed, point, mesh_);
-  if (excluded &&
-      (excluded->isZero() || (dimension_ == 2 && excluded->head<2>().norm() > empty_row_tolerance * excluded->norm())))
-    leave_out_friction(zone.mixed, result.law);
+  if (excluded && leaves_out_all_directions(zone.mixed)) leave_out_friction(zone.mixed, result.law);
   if (result.law.friction > 0.0) result.components = dimension_;
   const auto nodes = mesh_.cell(point.cell);
   for (std::size_t i = 0; i < nodes.size(); ++i) {

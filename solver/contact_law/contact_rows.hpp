@@ -34,6 +34,9 @@ class ContactRows {
   const std::vector<char>& smooth() const { return smooth_; }
   /// Of the space in which the surfaces move: 2 or 3.
   int dimension() const { return dimension_; }
+  /// Whether nodes of SANS_GROUP_NO_FR have no multiplier of friction at all: DIRE_EXCL_FROT is not given, or the plane
+  /// has no other direction along a surface.
+  bool leaves_out_all_directions(const MixedZone& zone) const;
 
   /// Faces the points anew. `positions`: where the nodes are now; `margin`: see FacedFacets.
   void face(Positions positions, double time, double margin);

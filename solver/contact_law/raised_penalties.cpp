@@ -9,10 +9,15 @@
 namespace comma::solver {
 namespace {
 
-/// A penalty is raised by as much as points are too deep, which suffices where the pressure stays: a little more, and
-/// at least this much, so that a few rounds do.
-constexpr double raise_margin = 1.1;
-constexpr double least_raise = 2.0;
+/// One of friction is raised by as much as points slip too far, which suffices where the shear stays: a little more,
+/// and at least twice, so that a few rounds do.
+double growth_with(double excess) {
+  constexpr double margin = 1.1, least = 2.0;
+  return std::max(least, margin * excess);
+}
+
+/// One of contact is doubled, and once more until points are no longer too deep (Code_Aster 17.3).
+double doubling(double) { return 2.0; }
 
 struct Wording {
   const char* penalty;
@@ -22,12 +27,12 @@ struct Wording {
 
 /// `most`: the largest factor of a zone.
 template <class Most>
-bool raise_factors(std::vector<double>& factors, const std::vector<double>& excess, const Most& most,
-                   const Wording& wording) {
+bool raise_factors(std::vector<double>& factors, const std::vector<double>& excess, double (*growth)(double),
+                   const Most& most, const Wording& wording) {
   bool raised = false;
   for (std::size_t zone = 0; zone < excess.size(); ++zone) {
     if (excess[zone] <= 1.0) continue;
-    factors[zone] *= std::max(least_raise, raise_margin * excess[zone]);
+    factors[zone] *= growth(excess[zone]);
     if (factors[zone] > most(zone))
       throw Error("no-convergence",
                   fmt::format("a {} {:.2g} times the one given does not keep {} than allowed", wording.penalty,
@@ -50,9 +55,9 @@ bool RaisedPenalties::raise(const Excess& excess) {
     return most_.value_or(most_beside_bodies * (excess.softness.empty() ? 1.0 : std::max(1.0, excess.softness[zone])));
   };
   const bool pressed = raise_factors(
-      contact_, excess.depth, most,
+      contact_, excess.depth, doubling, most,
       {"contact penalty", "points from going deeper", "allow more depth (PENE_MAXI), or take ALGO_CONT='STANDARD'"});
-  const bool rubbed = raise_factors(friction_, excess.slip, most,
+  const bool rubbed = raise_factors(friction_, excess.slip, growth_with, most,
                                     {"penalty of friction", "points that stick from slipping more",
                                      "allow more slip (GLIS_MAXI), or take ALGO_FROT='STANDARD'"});
   return pressed || rubbed;

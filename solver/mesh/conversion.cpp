@@ -266,11 +266,9 @@ Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversi
   for (int cell = 0; cell < mesh.cell_count(); ++cell)
     nodes.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
   std::vector<bool> left(mesh.nodes.size(), false);
-  int changed = 0;
   for (const int cell : by_dimension(mesh, cells)) {
     const CellType to = target_of(mesh.cell_types[cell], conversion);
     if (to == mesh.cell_types[cell]) continue;
-    ++changed;
     types[cell] = to;
     if (node_count(to) > node_count(mesh.cell_types[cell])) {
       nodes[cell] = QuadraticExtension(mesh, middles, cell, to).extend();
@@ -279,7 +277,6 @@ Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversi
       nodes[cell].resize(static_cast<std::size_t>(node_count(to)));
     }
   }
-  if (changed == 0) throw Error("no-cell", "none of the cells is of a type that this changes");
   replace_cells(result, types, nodes);
   left.resize(result.nodes.size(), false);
   drop_loose_nodes(result, left);
@@ -310,7 +307,6 @@ Mesh with_triangles(const Mesh& mesh, std::span<const int> cells) {
       names.add();
     }
   }
-  if (others.empty()) throw Error("no-cell", "none of the cells is a quadrangle");
   replace_cells(result, types, nodes);
   for (auto& [name, members] : result.cell_groups) {
     const std::vector<int> before = members;

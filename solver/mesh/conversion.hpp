@@ -23,12 +23,12 @@ enum class Conversion {
 /// nodes. New nodes are shared by the cells that share an edge or a face: mid-edge nodes halve the edge, middles of
 /// faces and solids lie where the serendipity shape functions of the cell put them, so that its geometry stays. They
 /// are numbered as Code_Aster does: those of lines first, then of faces, then of solids, each in the order of the
-/// cells. Throws Error `no-cell` if none of the cells can be converted.
+/// cells.
 Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversion);
 
 /// Cuts quadrangles into TRIA3 that stand in their groups: QUAD4 along the diagonal from the first node to the third;
 /// QUAD8 into four at the corners and two between the mid-edge nodes, along the diagonal from the fifth to the seventh;
-/// QUAD9 into eight around its middle. Throws Error `no-cell` if there are none.
+/// QUAD9 into eight around its middle.
 Mesh with_triangles(const Mesh& mesh, std::span<const int> cells);
 
 /// Doubles cells, on the same nodes, into a new cell group. Throws Error `group-exists`.

@@ -119,7 +119,7 @@ Vector3d place_on_facet(const Mesh& mesh, const ContactPoint& point, Positions p
 /// Nodes of SANS_GROUP_NO_FR count as sticking whatever they do.
 bool is_left_to_creep(const SolvedContact& contact, const ContactPoint& point) {
   const MixedZone& zone = contact.definition.zones[static_cast<std::size_t>(point.zone)].mixed;
-  return zone.rule == ContactRule::automatic && !zone.frictionless_direction &&
+  return zone.rule == ContactRule::automatic && contact.rows.leaves_out_all_directions(zone) &&
          std::ranges::find(zone.frictionless_nodes, point.node) != zone.frictionless_nodes.end();
 }
 
@@ -180,11 +180,22 @@ void add_forces_between_nodes(const SolvedContact& contact, std::map<Key, std::s
   }
 }
 
-/// Nodes of zones where contact is not enforced, and those that the user leaves out.
-void add_nodes_without_contact(const SolvedContact& contact, Positions positions, double instant,
-                               std::vector<NodeContact>& contacts) {
-  for (const auto& [index, pair] : watched_pairs(contact.definition, contact.mesh, positions, instant))
-    contacts.push_back({.pair = pair, .gap = gap_at(pair, contact.mesh, positions)});
+/// Nodes of zones where contact is not enforced. In the mixed formulation they are open ones, whatever their gaps,
+/// unless another zone holds them (Code_Aster 17.3).
+void add_watched_nodes(const SolvedContact& contact, Positions positions, double instant,
+                       std::vector<NodeContact>& contacts) {
+  const bool mixed = contact.definition.formulation == ContactFormulation::mixed;
+  std::set<int> known;
+  for (const NodeContact& each : contacts) known.insert(each.pair.slave);
+  for (auto [index, pair] : watched_pairs(contact.definition, contact.mesh, positions, instant)) {
+    if (mixed && known.contains(pair.slave)) continue;
+    if (mixed) pair.status = PairingStatus::paired;
+    contacts.push_back({.pair = pair, .gap = gap_at(pair, contact.mesh, positions), .has_foot = !mixed});
+  }
+}
+
+/// Those that the user leaves out.
+void add_excluded_nodes(const SolvedContact& contact, std::vector<NodeContact>& contacts) {
   for (std::size_t zone = 0; zone < contact.definition.zones.size(); ++zone) {
     const ContactZone& each = contact.definition.zones[zone];
     const std::set<int> excluded(each.excluded_slave_nodes.begin(), each.excluded_slave_nodes.end());
@@ -252,7 +263,9 @@ std::optional<NodalField> contact_state(const SolvedContact& contact, Positions 
       node.normal_force = 0.0;
       node.shear_force.setZero();
     }
-  add_nodes_without_contact(contact, paired_at, instant, contacts);
+  const bool is_discrete = contact.definition.formulation == ContactFormulation::discrete;
+  add_watched_nodes(contact, is_discrete ? paired_at : positions, instant, contacts);
+  add_excluded_nodes(contact, contacts);
   if (contacts.empty()) return std::nullopt;
   return contact_field(contacts, contact.mesh.node_count(), positions, duration);
 }

@@ -15,7 +15,8 @@ namespace comma::solver {
 void add_multipliers(const SolvedContact& contact, NodalField& displacements);
 
 /// CONT_NOEU (see contact_field.hpp); nothing where no point lies at a node. `positions`: where the nodes are;
-/// `paired_at`: where they were when surfaces were last paired, for zones that are watched; `duration`: of the step.
+/// `paired_at`: where they were when surfaces were last paired, for zones that the discrete formulation watches;
+/// `duration`: of the step.
 std::optional<NodalField> contact_state(const SolvedContact& contact, Positions positions, Positions paired_at,
                                         double instant, double duration);
 

@@ -112,7 +112,7 @@ TEST_CASE(
   const int thick = segment("thick", left, shared), thin = segment("thin", shared, right);
   scene.zone({master}, turned ? std::vector{thin, thick} : std::vector{thick, thin});
   scene.problem.contact->formulation = ContactFormulation::mixed;
-  scene.problem.contact->zones[0].half_thickness = {{thick, {0.02, 0.02}}, {thin, {0.01, 0.01}}};
+  scene.problem.contact->zones[0].half_thickness = {{thick, 0.02}, {thin, 0.01}};
   std::vector<Eigen::Vector3d> positions;
   for (const auto& at : scene.mesh->nodes) positions.emplace_back(at[0], at[1], at[2]);
   const auto points = contact_points(*scene.problem.contact, *scene.problem.model, positions, 0.0);

@@ -38,13 +38,11 @@ TEST_CASE("Beams add their radius, plates half of their thickness") {
   const Frame frame;
   const auto radii = beam_radii(frame.model, frame.properties, all);
   REQUIRE(radii.size() == 2);
-  CHECK(radii.at(0).first == 0.1);
-  CHECK(radii.at(0).last == 0.1);
-  CHECK(radii.at(1).first == 0.2);
-  CHECK(radii.at(1).last == 0.4);
+  CHECK(radii.at(0) == 0.1);
+  CHECK(radii.at(1) == exactly(0.3));
   const auto halves = plate_half_thicknesses(frame.model, frame.properties, all);
   REQUIRE(halves.size() == 1);
-  CHECK(halves.at(2).first == 0.03);
+  CHECK(halves.at(2) == 0.03);
 }
 
 TEST_CASE("An eccentric plate, whose faces are not half of its thickness away, is refused") {
@@ -53,20 +51,17 @@ TEST_CASE("An eccentric plate, whose faces are not half of its thickness away, i
   CHECK_THROWS_WITH(plate_half_thicknesses(frame.model, frame.properties, all), Catch::Contains("eccentric by 0.01"));
 }
 
-TEST_CASE("Along a beam that tapers the radius is linear, and nodes have the mean of their cells'") {
+TEST_CASE("A beam that tapers adds the mean of its radii, and nodes have the mean of their cells'") {
   const Frame frame;
   ContactZone zone;
   zone.slave_cells = all;
   zone.half_thickness = beam_radii(frame.model, frame.properties, all);
-  std::array<double, max_facet_nodes> quarter{};
-  quarter[0] = 0.75;
-  quarter[1] = 0.25;
-  CHECK(half_thickness(zone, *frame.mesh, 1, quarter) == exactly(0.25));
-  CHECK(half_thickness(zone, *frame.mesh, 2, quarter) == 0.0);
+  CHECK(half_thickness(zone, 1) == exactly(0.3));
+  CHECK(half_thickness(zone, 2) == 0.0);
   const auto nodal = nodal_half_thickness(zone, *frame.mesh);
   CHECK(nodal.at(0) == exactly(0.1));
-  CHECK(nodal.at(1) == exactly(0.15));
-  CHECK(nodal.at(2) == exactly(0.4));
+  CHECK(nodal.at(1) == exactly(0.2));
+  CHECK(nodal.at(2) == exactly(0.3));
   CHECK_FALSE(nodal.contains(3));
 }
 

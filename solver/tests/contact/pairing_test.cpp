@@ -169,11 +169,24 @@ TEST_CASE("A wall that it looks at is faced across the corner, the far side of a
 
 TEST_CASE("What elements add to both sides is taken off the gap") {
   Table table({{1, 1, 0}, {3, 1, 0}});
-  table.zone().half_thickness[0] = {0.1, 0.3};  // the facet from x = 2 to x = 0
-  table.zone().half_thickness[table.zone().slave_cells[0]] = {0.05, 0.07};
+  table.zone().half_thickness[0] = 0.2;  // the facet from x = 2 to x = 0
+  table.zone().half_thickness[table.zone().slave_cells[0]] = 0.06;
   const auto pairs = table.pair();
-  CHECK(pairs[0].thickness == exactly(0.2 + 0.05));
-  CHECK(pairs[1].thickness == exactly(0.07));
+  CHECK(pairs[0].thickness == exactly(0.2 + 0.06));
+  CHECK(pairs[1].thickness == exactly(0.06));
+}
+
+TEST_CASE("What is added to either side is read where the slave node is") {
+  Table table({{0.5, 1, 0}, {1.5, 1, 0}});
+  const auto place = [](const Point& at, double time) { return 0.1 * at[0] + 0.01 * at[1] + time; };
+  for (const auto side : {&ContactZone::slave_thickness, &ContactZone::master_thickness}) {
+    Table other = table;
+    other.zone().*side = place;
+    for (const ContactPair& pair : other.pair()) {
+      const Point& at = other.mesh.nodes[static_cast<std::size_t>(pair.slave)];
+      CHECK(pair.thickness == exactly(place(at, 0.0)));
+    }
+  }
 }
 
 TEST_CASE("Beside a curved facet the normal is that of the mean of its tangents at the foot and at its end") {

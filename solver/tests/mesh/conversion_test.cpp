@@ -65,6 +65,17 @@ TEST_CASE("a converted reference cell is the reference cell of the new type", "[
   }
 }
 
+TEST_CASE("cells of other types stay as they are", "[mesh]") {
+  CHECK(with_triangles(single(CellType::tria3), first_cell).cell_types == std::vector{CellType::tria3});
+  for (const auto& [type, conversion] :
+       {std::pair(CellType::tria6, Conversion::to_quadratic), std::pair(CellType::quad4, Conversion::to_linear),
+        std::pair(CellType::penta15, Conversion::hexa20_to_27)}) {
+    const Mesh mesh = converted(single(type), first_cell, conversion);
+    CHECK(mesh.cell_types == std::vector{type});
+    CHECK(mesh.nodes == single(type).nodes);
+  }
+}
+
 TEST_CASE("neighbours share the nodes of their edge, groups keep what they held", "[mesh]") {
   const Mesh mesh = converted(pair_of_faces(), Group{0, 1}, Conversion::to_quadratic);
   CHECK(mesh.node_count() == 6 + 7);
@@ -186,7 +197,6 @@ TEST_CASE("quadrangles cut into triangles keep area, sense and groups", "[mesh]"
   CHECK(mesh.cell_group("RIGHT").size() == 2);
   // Only the first is cut.
   CHECK(with_triangles(pair_of_faces(), first_cell).cell_group("BOTH").size() == 3);
-  CHECK_THROWS_AS(with_triangles(single(CellType::tria3), first_cell), Error);
   for (const auto& [type, pieces] : {std::pair(CellType::quad8, 6), std::pair(CellType::quad9, 8)}) {
     const Mesh whole = single(type);
     const Mesh cut = with_triangles(whole, first_cell);
