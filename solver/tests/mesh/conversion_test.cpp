@@ -85,7 +85,6 @@ TEST_CASE("neighbours share the nodes of their edge, groups keep what they held"
   const Mesh back = converted(mesh, Group{0, 1}, Conversion::to_linear);
   CHECK(back.nodes == pair_of_faces().nodes);
   CHECK(back.connectivity == pair_of_faces().connectivity);
-  CHECK_THROWS_AS(converted(pair_of_faces(), Group{0, 1}, Conversion::hexa20_to_27), Error);
 }
 
 TEST_CASE("nodes between others are numbered along lines first, then along faces, then along solids", "[mesh]") {
