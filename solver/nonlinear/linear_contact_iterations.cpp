@@ -41,6 +41,7 @@ MixedContact::Iterations MixedContact::iterations_like_code_aster(bool whole_new
 
 void MixedContact::iterate(Iterations iterations) {
   iterations_ = iterations;
+  rubbing_ = {};
   problem_.one_step = iterations != Iterations::settled;
 }
 

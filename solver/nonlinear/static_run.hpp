@@ -1,6 +1,7 @@
 // A nonlinear static computation while it runs.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -95,8 +96,8 @@ class StaticRun {
 
   // The solution of one step (step_solution.cpp).
   int solve_step(double time);
-  /// By fixed points on contact (see MixedContact::Iterations::rubbing), each of which finds balance.
-  int balance_by_fixed_points(double time, bool is_first_geometry, const std::function<int()>& balance);
+  /// By fixed points on contact (see MixedContact::Iterations::rubbing), so many at least, each of which finds balance.
+  int balance_by_fixed_points(double time, int least, const std::function<int()>& balance);
   /// Of contact, where they need not settle; whether any changed.
   bool adapt_penalties_once();
   /// Whether those of contact are others now, which have been adapted so often, and balance is to be found again.

@@ -19,6 +19,9 @@ using Eigen::Vector3d;
 constexpr int most_adaptations = 100;
 /// Fixed points on contact in a geometry (the default of ITER_CONT_MAXI).
 constexpr int most_fixed_points = 30;
+/// In the first geometry of a step. The first of them may leave friction out, which there is none of before anything
+/// presses: Code_Aster 17.3 goes on from it in any case.
+constexpr int least_fixed_points = 2;
 
 }  // namespace
 
@@ -60,8 +63,9 @@ int StaticRun::solve_step(double time) {
         return newton_.solve(time, external, offset, now_.conditions, earlier, active_set_limit(), now_.state);
       };
       if (update > 0) adapt_penalties_once();
-      iterations =
-          earlier + (mixed_ && mixed_->is_rubbing() ? balance_by_fixed_points(time, update == 0, balance) : balance());
+      iterations = earlier + (mixed_ && mixed_->is_rubbing()
+                                  ? balance_by_fixed_points(time, update == 0 ? least_fixed_points : 1, balance)
+                                  : balance());
       if (update == 0 && mixed_ && mixed_->began_adapted() && adapt_penalties_once()) iterations += balance();
       for (int adaptations = 0; penalties_change(time, adaptations); ++adaptations) iterations += balance();
     }
@@ -77,17 +81,14 @@ int StaticRun::solve_step(double time) {
   }
 }
 
-/// The first of a step may leave friction out, which there is none of before anything presses: Code_Aster 17.3 goes on
-/// from it in any case.
-int StaticRun::balance_by_fixed_points(double time, bool is_first_geometry, const std::function<int()>& balance) {
+int StaticRun::balance_by_fixed_points(double time, int least, const std::function<int()>& balance) {
   int iterations = 0;
-  for (int point = 0; point < most_fixed_points; ++point) {
+  for (int count = 1; count <= most_fixed_points; ++count) {
     now_.state.u = start_;
     now_.state.reduced = start_(elimination_.kept());
     mixed_->begin_again();
     iterations += balance();
-    const bool changes = mixed_->change_points(now_.state.u) > 0;
-    if (!changes && !(is_first_geometry && point == 0)) return iterations;
+    if (mixed_->change_points(now_.state.u) == 0 && count >= least) return iterations;
   }
   throw Error(
       "contact-cycling",
