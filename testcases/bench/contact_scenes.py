@@ -240,7 +240,8 @@ def scenes() -> dict[str, ContactScene]:
             note="The force on the node at the axis stands for so little surface that the pressure there converges with order 1 only."),
         ContactScene(
             "hertz_3d", "Hertz: sphere on a half-space, 3D", "hertz", "3D", hertz_quarter, SOLID.cell, (5, 10, 15, 20), (("HEXA8", f.WITH_LAC),), 2.0e11,
-            "force", parameters={"far": SOLID.far, "steps": 1}),
+            "force", parameters={"far": SOLID.far, "steps": 1},
+            note="The sphere has 7 by 7 faces of 8 nodes. The discrete formulation takes their corners alone, as Code_Aster 17.3 does: that is their error."),
         ContactScene(
             "punch", "Flat punch on a half-plane", "punch", "D_PLAN", punched_section, UNDER_PUNCH.cell, (20, 40, 80, 160), (("QUAD4", f.WITH_LAC),), 2.0e11,
             "force", parameters={"far": UNDER_PUNCH.far},
@@ -262,6 +263,7 @@ def scenes() -> dict[str, ContactScene]:
             (("QUAD4", f.RUBBING),), 2.0e11, "force", penetration=False, friction=0.3, parameters={"far": PLANE.far, "steps": 1}),
         ContactScene(
             "gap_bar", "A bar that closes a gap", "gap_bar", "C_PLAN", bars, lambda _, n: 0.2 / n, (1, 2, 4, 8), (("QUAD4", f.BETWEEN_BODIES_WITH_LAC),), 2.0e11,
-            "stress", parameters={"first": 2.0e11, "second": 1.0e11, "gap": 1.0e-3, "push": 2.0e-3}),
+            "stress", parameters={"first": 2.0e11, "second": 1.0e11, "gap": 1.0e-3, "push": 2.0e-3},
+            note="Discrete formulations face the bars as each of the ten steps begins, as Code_Aster 17.3 does, and not as the mesh has them."),
     )
     return {scene.name: scene for scene in listed}
