@@ -161,8 +161,7 @@ class ZonePoints {
     point.foot = hit->projection.foot;
     point.kept = hit->kept;
     point.normal = search_.normal(*hit, own.outward.value_or(Vector3d::Zero()));
-    point.thickness =
-        thickness_at(zone_, here, time_) + half_thickness(zone_, point.facet) + half_thickness(zone_, point.cell);
+    point.thickness = thickness_at(zone_, here, time_) + half_thickness(zone_, point.cell);
   }
 
   /// INTEGRATION='AUTO' is the discrete formulation's pairing of nodes (Code_Aster 17.3): the faces at a node have one

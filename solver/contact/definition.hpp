@@ -94,8 +94,8 @@ struct ContactZone {
   FieldFunction master_thickness;  ///< DIST_MAIT: what is added on the master's side, a length; may be empty
   FieldFunction slave_thickness;   ///< DIST_ESCL
   bool thickness_changes = false;  ///< either depends on time
-  /// What the elements of cells add to either side of them (DIST_POUTRE, DIST_COQUE): the radius of a beam, half of the
-  /// thickness of a plate. Those not named add nothing.
+  /// What the elements of slave cells take off the gap (DIST_POUTRE, DIST_COQUE): the radius of a beam, half of the
+  /// thickness of a plate. Those of master cells take nothing (Code_Aster 17.3), nor do those not named.
   std::unordered_map<int, double> half_thickness;
   MixedZone mixed;  ///< for zones that is_condensed() speaks of
 };

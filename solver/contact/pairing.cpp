@@ -46,7 +46,7 @@ class ZonePairing {
       result.foot = hit->projection.foot;
       result.kept = hit->kept;
       result.normal = search_.normal(*hit, outward_at(slave).value_or(Vector3d::Zero()));
-      result.thickness = thickness_at(zone_, at, time_) + half_thickness(zone_, hit->facet);
+      result.thickness = thickness_at(zone_, at, time_);
       if (const auto size = slave_sizes_.find(slave); size != slave_sizes_.end()) result.thickness += size->second;
       if (takes_corners_) bear_on_corners(result);
     }

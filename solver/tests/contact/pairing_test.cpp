@@ -167,13 +167,11 @@ TEST_CASE("A wall that it looks at is faced across the corner, the far side of a
   CHECK(table.pair()[0].facet == far_side);  // overlapping it
 }
 
-TEST_CASE("What elements add to both sides is taken off the gap") {
+TEST_CASE("What elements of slave cells add is taken off the gap, whatever those of the master have") {
   Table table({{1, 1, 0}, {3, 1, 0}});
   table.zone().half_thickness[0] = 0.2;  // the facet from x = 2 to x = 0
   table.zone().half_thickness[table.zone().slave_cells[0]] = 0.06;
-  const auto pairs = table.pair();
-  CHECK(pairs[0].thickness == exactly(0.2 + 0.06));
-  CHECK(pairs[1].thickness == exactly(0.06));
+  for (const ContactPair& pair : table.pair()) CHECK(pair.thickness == exactly(0.06));
 }
 
 TEST_CASE("What is added to either side is read where the slave node is") {
