@@ -189,7 +189,7 @@ void CondensedEquations::correct() {
   }
   balance.head(static_cast<Index>(unknown_rows_.size())) = unbalanced_jumps();
   const Eigen::VectorXd step = solved(equations, balance);
-  take_solved_forces(equations.forces() * step);
+  if (problem_.one_step) take_solved_forces(equations.forces() * step);
   for (std::size_t k = 0; k < unknown_rows_.size(); ++k) jumps_[unknown_rows_[k]] -= step[static_cast<Index>(k)];
   for (std::size_t i = 0; i < multiplier_unknowns_.size(); ++i)
     if (multiplier_unknowns_[i] >= 0) state_.multipliers[static_cast<Index>(i)] -= step[multiplier_unknowns_[i]];
@@ -223,7 +223,7 @@ bool CondensedEquations::correct_at_nodes() {
     return true;
   }
   for (std::size_t k = 0; k < unknown_rows_.size(); ++k) jumps_[unknown_rows_[k]] -= (*jumps)[static_cast<Index>(k)];
-  take_solved_forces(step.force_changes());
+  if (problem_.one_step) take_solved_forces(step.force_changes());
   for (const NodalStep::Change& change : step.multiplier_changes())
     for (int c = 0; c < change.rows; ++c) state_.multipliers[multiplier_index(change.node, c)] -= change.value[c];
   return true;

@@ -43,7 +43,7 @@ class CondensedEquations {
 
   /// One step of Newton's method for jumps and multipliers.
   void correct();
-  /// Forces that the last step has been solved with; empty where nothing was unknown.
+  /// Of problems of one step: the forces that it has been solved with; empty where nothing was unknown.
   const Eigen::VectorXd& solved_forces() const { return solved_forces_; }
   /// Forces, and what is left of the equations, at the present multipliers and jumps.
   void evaluate();

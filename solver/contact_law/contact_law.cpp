@@ -101,37 +101,21 @@ void add_idle_share(const ContactLaw& law, const Vector3d& multiplier, ContactLa
   value.residual_by_multiplier.bottomRightCorner<2, 2>() = by_multiplier;
 }
 
-/// See ContactLaw::weighs_any_pressure.
-void add_shear_by_any_pressure(const ContactLaw& law, ContactStatus status, const Shear& unit,
-                               const Vector3d& multiplier, const Vector3d& jump, ContactLawValue& value) {
-  const double augmentation = law.friction_augmentation, weight = multiplier[0] / law.share_pressure;
-  add_traction(law,
-               {.value = weight * unit.value,
-                .by_trial = weight * unit.by_trial,
-                .by_pressure = unit.value / law.share_pressure},
-               value);
-  if (status == ContactStatus::open || weight == 0.0) return add_idle_share(law, multiplier, value);
-  const bool sticks = status == ContactStatus::sticking;
-  value.residual.tail<2>() = weight * (sticks ? left_of_sticking(law, multiplier, jump)
-                                              : Vector2d((unit.value - multiplier.tail<2>()) / augmentation));
-  value.residual_by_multiplier.bottomRightCorner<2, 2>() =
-      weight / augmentation * (unit.by_trial - Matrix2d::Identity());
-  value.residual_by_jump.bottomRightCorner<2, 2>() = weight * unit.by_trial;
-}
-
 /// `unit`: the shear at the pressure of shares. Pressures that press nothing have no derivative.
-void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shear& unit, double pressure,
-                         const Vector3d& multiplier, const Vector3d& jump, ContactLawValue& value) {
+void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shear& unit, const Vector3d& multiplier,
+                         const Vector3d& jump, ContactLawValue& value) {
   const double augmentation = law.friction_augmentation;
-  const bool is_held = law.held_share > 0.0;
+  const bool is_held = law.held_share > 0.0, any = law.weighs_any_pressure;
+  const double pressure = any ? multiplier[0] : limiting_pressure(law, multiplier, jump);
+  const bool presses = any ? pressure != 0.0 : pressure > 0.0;
   const double present = pressure / law.share_pressure;
   Shear shear{.value = present * unit.value,
               .by_trial = present * unit.by_trial,
-              .by_pressure = pressure > 0.0 ? Vector2d(unit.value / law.share_pressure) : Vector2d::Zero()};
+              .by_pressure = presses ? Vector2d(unit.value / law.share_pressure) : Vector2d::Zero()};
   if (is_held && status == ContactStatus::sticking)
     shear = {.value = law.held_share * unit.value, .by_trial = law.held_share * unit.by_trial};
   add_traction(law, shear, value);
-  if (!law.friction_penalised && law.friction > 0.0 && (status == ContactStatus::open || !(pressure > 0.0)))
+  if (!law.friction_penalised && law.friction > 0.0 && (status == ContactStatus::open || !presses))
     return add_idle_share(law, multiplier, value);
 
   // Sticking points slip by nothing: said without the shear, of any size, that it takes.
@@ -139,12 +123,15 @@ void add_shear_by_shares(const ContactLaw& law, ContactStatus status, const Shea
   const Vector2d left =
       sticks ? left_of_sticking(law, multiplier, jump) : Vector2d((unit.value - multiplier.tail<2>()) / augmentation);
   const bool counts_by_pressure = status != ContactStatus::open && !law.friction_penalised;
-  const double weight = !counts_by_pressure ? 1.0 : is_held ? law.held_share : std::max(present, least_pressure_share);
+  const double weight = !counts_by_pressure ? 1.0
+                        : is_held           ? law.held_share
+                        : any               ? present
+                                            : std::max(present, least_pressure_share);
   value.residual.tail<2>() = weight * left;
   value.residual_by_multiplier.bottomRightCorner<2, 2>() =
       weight / augmentation * (shear_share(law) * unit.by_trial - Matrix2d::Identity());
   value.residual_by_jump.bottomRightCorner<2, 2>() = weight * unit.by_trial;
-  if (!counts_by_pressure || is_held || present <= least_pressure_share) return;
+  if (!counts_by_pressure || is_held || any || present <= least_pressure_share) return;
   value.residual_by_multiplier.bottomLeftCorner<2, 1>() = limit_by_multiplier(law) / law.share_pressure * left;
   value.residual_by_jump.bottomLeftCorner<2, 1>() = limit_by_gap(law) / law.share_pressure * left;
 }
@@ -190,12 +177,8 @@ ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const V
     return value;
   }
   const Shear shear = live_shear(law, status, multiplier, jump);
-  if (law.weighs_any_pressure) {
-    add_shear_by_any_pressure(law, status, shear, multiplier, jump, value);
-    return value;
-  }
   if (law.share_pressure > 0.0) {
-    add_shear_by_shares(law, status, shear, limiting_pressure(law, multiplier, jump), multiplier, jump, value);
+    add_shear_by_shares(law, status, shear, multiplier, jump, value);
     return value;
   }
   add_shear(law, shear, multiplier, value);

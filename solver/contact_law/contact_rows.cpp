@@ -70,6 +70,14 @@ void ContactRows::number_multipliers() {
   }
 }
 
+Eigen::VectorXd ContactRows::with_shares(Eigen::VectorXd multipliers, int components) const {
+  visit_shears(components, [&](Eigen::Index pressure, Eigen::Index shear, double friction) {
+    const double limit = friction * multipliers[pressure];
+    multipliers[shear] = limit != 0.0 ? multipliers[shear] / limit : 0.0;
+  });
+  return multipliers;
+}
+
 bool ContactRows::leaves_out_all_directions(const MixedZone& zone) const {
   if (!zone.frictionless_direction) return true;
   const Eigen::Map<const Vector3d> direction(zone.frictionless_direction->data());

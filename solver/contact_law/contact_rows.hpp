@@ -34,6 +34,19 @@ class ContactRows {
   const std::vector<char>& smooth() const { return smooth_; }
   /// Of the space in which the surfaces move: 2 or 3.
   int dimension() const { return dimension_; }
+  /// Calls visit(index of the pressure, index of the shear, coefficient of friction) for each shear among multipliers,
+  /// `components` a number.
+  template <typename Visit>
+  void visit_shears(int components, const Visit& visit) const {
+    for (const auto& [key, number] : multiplier_numbers_) {
+      const Eigen::Index first = Eigen::Index{number} * components;
+      const double friction = definition_.zones[static_cast<std::size_t>(key.first)].mixed.friction;
+      for (int c = 1; c < components; ++c) visit(first, first + c, friction);
+    }
+  }
+  /// Multipliers whose shears are shares of the limit of friction at the pressures of their nodes, 0 where that
+  /// vanishes.
+  Eigen::VectorXd with_shares(Eigen::VectorXd multipliers, int components) const;
   /// Whether nodes of SANS_GROUP_NO_FR have no multiplier of friction at all: DIRE_EXCL_FROT is not given, or the plane
   /// has no other direction along a surface.
   bool leaves_out_all_directions(const MixedZone& zone) const;

@@ -177,10 +177,6 @@ class MixedContact {
   bool rubs_loosely() const;
   int linearise_friction(const Eigen::VectorXd& u);
   void note_friction(const Eigen::VectorXd& u, const Eigen::VectorXd& shares);
-  Eigen::VectorXd shares() const;
-  void take_shares(const Eigen::VectorXd& shares);
-  template <typename Visit>
-  void visit_shears(const Visit& visit) const;
   ContactLaw law_by_shares(std::size_t p, double pressure) const;
   CondensedSolution step_by_shares();
   void note_coarse_friction(ContactDoubts& doubts) const;

@@ -36,13 +36,6 @@ void add_contact(const NodeContact& contact, NodeContact& sum) {
   add_forces(contact.normal_force * contact.pair.normal, contact.shear_force, sum);
 }
 
-Vector3d multiplier(const SolvedContact& contact, int number) {
-  const int components = contact.problem.components;
-  Vector3d value = Vector3d::Zero();
-  value.head(components) = contact.state.multipliers.segment(number * components, components);
-  return value;
-}
-
 /// Of the limit of friction: what a penalty brings by a slip of that size, a share a length in the mixed formulation
 /// (see share_friction), a force a length in the discrete one.
 double share_of_limit(const SolvedContact& contact, const CondensedPoint& point, double slip, double limit) {
@@ -228,11 +221,11 @@ void add_multipliers(const SolvedContact& contact, NodalField& displacements) {
     for (const int node : contact.mesh.nodes_of_cells(zone.slave_cells)) std::fill_n(place(node), added, 0.0);
   }
   for (const auto& [key, number] : contact.rows.multiplier_numbers()) std::fill_n(place(key.second), added, 0.0);
+  const int components = contact.problem.components;
+  const Eigen::VectorXd shown = contact.rows.with_shares(contact.state.multipliers, components);
   for (const auto& [key, number] : contact.rows.multiplier_numbers()) {
-    const Vector3d value = multiplier(contact, number);
-    const double limit = contact.definition.zones[static_cast<std::size_t>(key.first)].mixed.friction * value[0];
-    place(key.second)[0] -= value[0];
-    for (int c = 1; c < contact.problem.components && limit != 0.0; ++c) place(key.second)[c] += value[c] / limit;
+    place(key.second)[0] -= shown[number * components];
+    for (int c = 1; c < components; ++c) place(key.second)[c] += shown[number * components + c];
   }
   show_pressures_on_axis(contact, place);
   add_idle_multipliers(contact, place);
@@ -283,7 +276,7 @@ std::optional<ElementField> patch_state(const SolvedContact& contact) {
     if (condensed.first_row >= 0) patch.gap = contact.jumps[condensed.first_row];
     if (condensed.rows == 0 || !contact.is_closed(p)) continue;
     patch.is_closed = true;
-    patch.pressure = multiplier(contact, condensed.nodes[0])[0];
+    patch.pressure = multiplier_at(contact.problem, contact.state, condensed)[0];
   }
   std::vector<std::pair<std::vector<int>, PatchContact>> patches;
   for (const auto& faces : contact.mesh.slave_patches) {

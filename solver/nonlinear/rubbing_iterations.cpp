@@ -28,33 +28,6 @@ bool MixedContact::rubs_loosely() const {
   });
 }
 
-/// Calls visit(index of the pressure, index of the shear, coefficient of friction) for each shear at a node.
-template <typename Visit>
-void MixedContact::visit_shears(const Visit& visit) const {
-  for (const auto& [key, number] : rows_.multiplier_numbers()) {
-    const Index first = Index{number} * problem_.components;
-    const double friction = definition_.zones[static_cast<std::size_t>(key.first)].mixed.friction;
-    for (int c = 1; c < problem_.components; ++c) visit(first, first + c, friction);
-  }
-}
-
-/// Pressures, and shears as shares of the limit of friction at the pressures of their nodes.
-VectorXd MixedContact::shares() const {
-  VectorXd result = state_.multipliers;
-  visit_shears([&](Index pressure, Index shear, double friction) {
-    const double limit = friction * result[pressure];
-    result[shear] = limit != 0.0 ? result[shear] / limit : 0.0;
-  });
-  return result;
-}
-
-/// The other way round, with the pressures at hand.
-void MixedContact::take_shares(const VectorXd& shares) {
-  visit_shears([&](Index pressure, Index shear, double friction) {
-    state_.multipliers[shear] = friction * state_.multipliers[pressure] * shares[shear];
-  });
-}
-
 ContactLaw MixedContact::law_by_shares(std::size_t p, double pressure) const {
   ContactLaw law = problem_.points[p].law;
   if (!(law.friction > 0.0)) return law;
@@ -66,30 +39,32 @@ ContactLaw MixedContact::law_by_shares(std::size_t p, double pressure) const {
 }
 
 void MixedContact::begin_again() {
-  visit_shears([this](Index, Index shear, double) { state_.multipliers[shear] = 0.0; });
+  rows_.visit_shears(problem_.components, [this](Index, Index shear, double) { state_.multipliers[shear] = 0.0; });
   rubbing_.last.resize(0);
   linearise_friction(reference_);
 }
 
-/// Shares are taken at the largest pressure, so that they are as large as pressures are.
+/// Shears are taken as they are at the largest pressure: shares of the limit that are as large as pressures are.
 CondensedSolution MixedContact::step_by_shares() {
   const double largest = largest_component(state_.multipliers), unit = largest > 0.0 ? largest : 1.0;
   CondensedProblem problem = problem_;
   for (std::size_t p = 0; p < points().size(); ++p) problem.points[p].law = law_by_shares(p, unit);
-  CondensedState state{shares(), state_.statuses};
-  visit_shears([&](Index, Index shear, double friction) { state.multipliers[shear] *= friction * unit; });
-  const CondensedSolution solution = solve_condensed(*schur_, problem, state);
-  visit_shears([&](Index, Index shear, double friction) {
-    state.multipliers[shear] = friction > 0.0 ? state.multipliers[shear] / (friction * unit) : 0.0;
+  CondensedState state = state_;
+  rows_.visit_shears(problem_.components, [&](Index pressure, Index shear, double) {
+    const double present = state.multipliers[pressure];
+    state.multipliers[shear] *= present != 0.0 ? unit / present : 0.0;
   });
-  state_.multipliers = state.multipliers;
-  take_shares(state.multipliers);
+  const CondensedSolution solution = solve_condensed(*schur_, problem, state);
+  rows_.visit_shears(problem_.components, [&](Index pressure, Index shear, double) {
+    state.multipliers[shear] *= state.multipliers[pressure] / unit;
+  });
+  state_.multipliers = std::move(state.multipliers);
   return solution;
 }
 
 int MixedContact::linearise_friction(const VectorXd& u) {
   const VectorXd now = jumps(u);
-  const CondensedState by_shares{shares(), {}};
+  const CondensedState by_shares{rows_.with_shares(state_.multipliers, problem_.components), {}};
   forces_.setZero(rows_.full().rows());
   int changes = 0;
   for (std::size_t p = 0; p < points().size(); ++p) {
