@@ -43,7 +43,7 @@ void tie_edges(const Mesh& mesh, const DofMap& dofs, int cell, const Origin& ori
 
 }  // namespace
 
-bool has_tied_edges(const ContactZone& zone) { return zone.resolved && !zone.mixed.bilateral; }
+bool has_tied_edges(const ContactZone& zone) { return zone.resolved && !zone.mixed.bilateral && !zone.mixed.penalised; }
 
 std::vector<int> contact_nodes(const Mesh& mesh, const ContactZone& zone) {
   std::set<int> nodes;

@@ -3,8 +3,8 @@
 //
 // A uniform pressure on such a face pulls at its corners, which unilateral conditions would let go. With each middle
 // node tied to the ends of its edge, forces reach the corners alone, and all of the same sign. Where contact does not
-// open again (GLISSIERE) nothing lets go: no edge is tied, middle nodes make contact as well, and faces are as curved
-// as they are, but it is the corners of the master's that bear (Code_Aster 17.3).
+// open again (GLISSIERE), or overlaps push back (ALGO_CONT='PENALISATION'), no edge is tied, middle nodes make contact
+// as well, and faces are as curved as they are, but it is the corners of the master's that bear (Code_Aster 17.3).
 #pragma once
 
 #include <span>
@@ -20,7 +20,8 @@
 
 namespace comma::solver {
 
-/// Whether the edges of QUAD8 faces of a zone are tied: not of one that is watched, or that does not open again.
+/// Whether the edges of QUAD8 faces of a zone are tied: not of one that is watched, that does not open again, or that
+/// has a penalty.
 bool has_tied_edges(const ContactZone& zone);
 
 /// The nodes of the slave cells of a zone that may make contact, rising: all but the middle nodes that straight_edges()

@@ -109,10 +109,11 @@ TEST_CASE("the corners of an eight-node face make contact, its edges stay straig
   }
 }
 
-TEST_CASE("where contact does not open again, all nodes of an eight-node face make contact, and nothing ties them",
+TEST_CASE("where contact does not open again, or has a penalty, all nodes of an eight-node face make it untied",
           "[contact]") {
   TwoBricks bricks;
-  bricks.zone.mixed.bilateral = true;
+  const bool has_penalty = GENERATE(false, true);
+  (has_penalty ? bricks.zone.mixed.penalised : bricks.zone.mixed.bilateral) = true;
   CHECK(contact_nodes(*bricks.mesh, bricks.zone).size() == 8);
   auto model = std::make_shared<Model>(Model{bricks.mesh, std::vector(4, Formulation::solid)});
   ContactDefinition contact;
