@@ -177,13 +177,13 @@ void take_thickness(const Keywords& keywords, const char* keyword, solver::Field
 }
 
 // Nodes and patches have no facet to be sought along a line.
-void check_direction_of_search(const Keywords& zone) {
+void check_direction_of_search(const Keywords& zone, const char* keyword) {
   const bool by_patches = zone.text("ALGO_CONT") == "LAC";
   if (!by_patches && zone.text("APPARIEMENT") != "NODAL") return;
   throw DiagnosticError("unsupported",
-                        fmt::format("comma does not support TYPE_APPA='FIXE' with {}",
+                        fmt::format("comma does not support {}='FIXE' with {}", keyword,
                                     by_patches ? "ALGO_CONT='LAC'" : "APPARIEMENT='NODAL'"),
-                        zone.span_of("TYPE_APPA"),
+                        zone.span_of(keyword),
                         "leave it out, or take APPARIEMENT='MAIT_ESCL' and ALGO_CONT='STANDARD'");
 }
 
@@ -194,8 +194,9 @@ solver::ContactZone contact_zone(const Keywords& keywords, const solver::Mesh& m
   if (keywords.has("NORMALE")) zone.normal_side = normal_side(keywords.text("NORMALE"));
   take_normal(keywords, "MAIT", zone.master_normal, zone.master_vector);
   take_normal(keywords, "ESCL", zone.slave_normal, zone.slave_vector);
-  if (keywords.text("TYPE_APPA") == "FIXE") {
-    check_direction_of_search(keywords);
+  for (const char* keyword : {"TYPE_APPA", "TYPE_PROJECTION"}) {
+    if (keywords.text(keyword) != "FIXE") continue;
+    check_direction_of_search(keywords, keyword);
     zone.pairing_direction = direction_of(keywords, "DIRE_APPA");
     if (mesh.dimension == 2 && (*zone.pairing_direction)[2] != 0.0)
       throw DiagnosticError("out-of-plane", "DEFI_CONTACT: DIRE_APPA points out of the plane of the model",
@@ -239,7 +240,7 @@ void check_local_average(const Keywords& zone) {
   for (const char* keyword :
        {"COULOMB", "NORMALE", "VECT_MAIT", "VECT_ESCL", "RESOLUTION", "DIST_POUTRE", "DIST_COQUE", "TOLE_PROJ_EXT",
         "INTEGRATION", "SANS_GROUP_NO", "SANS_NOEUD", "SANS_GROUP_MA", "SANS_MAILLE"}) {
-    if (!zone.given(keyword)) continue;
+    if (!zone.given(keyword) || (keyword == std::string_view("INTEGRATION") && zone.text(keyword) == "AUTO")) continue;
     throw DiagnosticError("unsupported", std::string("comma does not support ") + keyword + " with ALGO_CONT='LAC'",
                           zone.span_of(keyword), "leave it out, or take ALGO_CONT='STANDARD'");
   }
@@ -273,6 +274,7 @@ solver::MixedZone mixed_zone(const Keywords& keywords, const solver::Mesh& mesh)
   zone.local_average ? check_local_average(keywords) : check_pairing(keywords);
   zone.rule = contact_rule(keywords.text("INTEGRATION"));
   if (keywords.has("ORDRE_INT")) zone.rule_order = static_cast<int>(keywords.integer("ORDRE_INT"));
+  if (zone.local_average) zone.present_areas = keywords.text("TYPE_JACOBIEN") == "ACTUALISE";
   zone.penalised = keywords.text("ALGO_CONT") == "PENALISATION";
   zone.adapts_penalty = zone.penalised && adapts_penalties(keywords);
   if (zone.adapts_penalty && keywords.has("PENE_MAXI")) zone.largest_depth = keywords.real("PENE_MAXI");

@@ -43,6 +43,8 @@ struct MixedZone {
   double augmentation = 100.0;      ///< COEF_CONT: of the pressure by the gap
   bool keeps_augmentation = false;  ///< it is not lowered where no solution is found with it (ADAPTATION='NON')
   bool local_average = false;  ///< the mean gap of each patch of slave faces obeys Signorini's law (ALGO_CONT='LAC')
+  bool present_areas = false;  ///< pressures of patches are forces over areas as they are, otherwise over initial ones
+                               ///< (TYPE_JACOBIEN='ACTUALISE')
   bool penalised = false;      ///< the pressure is `augmentation` times the depth (ALGO_CONT='PENALISATION')
   /// In place of `augmentation` each point has a penalty that its depth adapts (ADAPTATION='ADAPT_COEF'; see
   /// adapted_penalties.hpp).

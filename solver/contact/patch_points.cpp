@@ -133,7 +133,7 @@ class PatchGaps {
   void add_face(int face, bool is_far) {
     const Gathered slave = slaves_.gather(face);
     for (const FacePoint& at : face_rule(slave.type, ContactRule::gauss, area_order))
-      point_.area += at.weight * initial_stretch(mesh_, face, at.xi, is_axisymmetric_);
+      point_.area += at.weight * stretch(face, slave, at.xi);
     if (is_far) return;
     const Reach reach(slave);
     for (std::size_t m = 0; m < masters_.size(); ++m)
@@ -151,12 +151,18 @@ class PatchGaps {
       area_ += area;
       point_.normal += area * normal;
       point_.facet = facet;
-      const double before = at.weight * initial_stretch(mesh_, face, at.slave, is_axisymmetric_);
-      point_.weight += before;
-      add_shares(face, slave, at.slave, -before);
+      const double pressed = at.weight * stretch(face, slave, at.slave);
+      point_.weight += pressed;
+      add_shares(face, slave, at.slave, -pressed);
     }
     for (const FacePoint& at : overlap.master)
-      add_shares(facet, master, at.xi, -at.weight * initial_stretch(mesh_, facet, at.xi, is_axisymmetric_));
+      add_shares(facet, master, at.xi, -at.weight * stretch(facet, master, at.xi));
+  }
+
+  /// Of the area over which the pressure acts.
+  double stretch(int cell, const Gathered& facet, const Vector2d& xi) const {
+    return zone_.mixed.present_areas ? facet_stretch(facet.type, facet.span(), xi, is_axisymmetric_)
+                                     : initial_stretch(mesh_, cell, xi, is_axisymmetric_);
   }
 
   /// Adds what the gap takes of a facet's nodes where they move along outward normals.

@@ -149,6 +149,12 @@ TEST_CASE("Surfaces face each other as the bodies are, and pressures act over th
     (share.node >= 4 && share.node < 8 ? on_master : on_slave) += points[0].weight * share.coefficient[2];
   CHECK(on_slave == exactly(1.5));
   CHECK(on_master == exactly(-0.75));
+  definition.zones.front().mixed.present_areas = true;  // the slave lies as it was
+  append_patch_points(definition, 0, model, moved, 0.0, points);
+  double on_present_master = 0.0;
+  for (const GapShare& share : points[1].shares)
+    if (share.node >= 4 && share.node < 8) on_present_master += points[1].weight * share.coefficient[2];
+  CHECK(on_present_master == exactly(-1.5));
 }
 
 TEST_CASE("The mean gap of a patch is over areas as they are, and by the radius now where axisymmetric") {
