@@ -155,6 +155,7 @@ class SlaveCutter {
       body_pieces = by_hexahedra ? hexahedra(body, key) : quadrangles_behind(body, key);
     } else {
       prepare_centre(cell(face));
+      add_middles_behind(cell(face), cell(body));
       body_pieces = cones(facets_of(cell(body)), key, body);
     }
     for (const int skin : skins_.at(key))
@@ -163,8 +164,8 @@ class SlaveCutter {
     for (const int piece : replace(body, std::move(body_pieces))) add_body(piece);
   }
 
-  /// The node at the centre of a face, and in front of its corners what their edges to the centre carry. On quadratic
-  /// faces they lie on the surface that the shape functions describe.
+  /// The node at the centre of a face, and what the edges between it and the corners carry. On quadratic faces they lie
+  /// on the surface that the shape functions describe. Their numbers are those of Code_Aster 17.3.
   void prepare_centre(const Cell& face) {
     middles_.clear();
     const auto corners = static_cast<std::size_t>(corner_count(face.type));
@@ -173,15 +174,33 @@ class SlaveCutter {
       for (std::size_t i = from; i < to; ++i) total += place(face.nodes[i]);
       return total;
     };
+    const auto add_middles = [&] {
+      for (std::size_t i = 0; i < corners; ++i) middles_.emplace(face.nodes[i], add_node(half_way(face, i)));
+    };
     if (face.type == tria6) {
+      add_middles();
       centre_ = add_node(-sum(0, 3) / 9 + sum(3, 6) * 4 / 9);
     } else if (face.type == quad8) {
       centre_ = add_node(-sum(0, 4) / 4 + sum(4, 8) / 2);
+      add_middles();
     } else {
       centre_ = add_node(sum(0, corners) / static_cast<double>(corners));
     }
-    if (face.type != tria6 && face.type != quad8) return;
-    for (std::size_t i = 0; i < corners; ++i) middles_.emplace(face.nodes[i], add_node(half_way(face, i)));
+  }
+
+  /// Between the centre and the corners of a quadratic body off the face, in the order of the corners of the face that
+  /// edges lead from (Code_Aster 17.3).
+  void add_middles_behind(const Cell& face, const Cell& body) {
+    if (middles_.empty()) return;
+    const auto on_face = [&](int node) { return std::ranges::find(face.nodes, node) != face.nodes.end(); };
+    for (const int corner : corners_of(face))
+      for (const auto& edge : middle_edges(body.type)) {
+        const int first = body.nodes[static_cast<std::size_t>(edge[0])];
+        const int second = body.nodes[static_cast<std::size_t>(edge[1])];
+        if (first != corner && second != corner) continue;
+        const int other = first == corner ? second : first;
+        if (!on_face(other)) middle(other);
+      }
   }
 
   /// Half-way, in reference coordinates, from a corner of a quadratic face to its centre.
@@ -385,10 +404,10 @@ Mesh with_cut_slave_faces(const Mesh& mesh, std::span<const int> faces, HexaCut 
 
 std::vector<int> inner_nodes(const Mesh& mesh, std::span<const int> patch) {
   std::map<FacetKey, std::pair<int, std::vector<int>>> edges;  // how many faces have it, and its nodes
-  std::set<int> nodes;
+  std::map<int, std::size_t> nodes;                            // how many faces have it
   for (const int face : patch) {
     const Cell own{mesh.cell_types[face], {mesh.cell(face).begin(), mesh.cell(face).end()}};
-    nodes.insert(own.nodes.begin(), own.nodes.end());
+    for (const int node : own.nodes) ++nodes[node];
     for (const Cell& edge : facets_of(own)) {
       auto& known = edges[key_of(corners_of(edge))];
       ++known.first;
@@ -398,7 +417,10 @@ std::vector<int> inner_nodes(const Mesh& mesh, std::span<const int> patch) {
   for (const auto& [key, edge] : edges)
     if (edge.first == 1)
       for (const int node : edge.second) nodes.erase(node);
-  return {nodes.begin(), nodes.end()};
+  std::vector<int> inner;
+  for (const auto& [node, faces] : nodes) inner.push_back(node);
+  std::ranges::stable_partition(inner, [&](int node) { return nodes.at(node) == patch.size(); });
+  return inner;
 }
 
 }  // namespace comma::solver

@@ -24,7 +24,8 @@ enum class HexaCut : std::uint8_t { pyramids, hexahedra };
 /// centre, quadratic ones for HexaCut::hexahedra.
 Mesh with_cut_slave_faces(const Mesh& mesh, std::span<const int> faces, HexaCut hexa_cut);
 
-/// The nodes inside a patch: on none of the edges (ends, of lines) that just one of its faces has. Rising.
+/// The nodes inside a patch: on none of the edges (ends, of lines) that just one of its faces has. The one that
+/// all faces share comes first, the others are rising.
 std::vector<int> inner_nodes(const Mesh& mesh, std::span<const int> patch);
 
 }  // namespace comma::solver

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <set>
 
+#include <Eigen/Dense>
 #include <catch2/catch.hpp>
 
 #include "reference_cells.hpp"
@@ -102,6 +103,30 @@ TEST_CASE("Cutting a slave face fills the body, and touches none of its other fa
       // One node inside, and on quadratic faces the middles of the edges that go there.
       const bool is_quadratic = node_count(whole.cell_types[face]) > static_cast<int>(corners);
       CHECK(inner_nodes(mesh, mesh.slave_patches.front()).size() == (is_quadratic ? 1 + corners : 1));
+    }
+  }
+}
+
+TEST_CASE("New nodes of quadratic cells are numbered as in Code_Aster 17.3", "[mesh]") {
+  using enum CellType;
+  for (const CellType type : {tetra10, penta15, hexa20}) {
+    const Mesh whole = dressed(type);
+    for (int face = 1; face < whole.cell_count(); ++face) {
+      if (type == penta15 && whole.cell_types[face] == quad8) continue;
+      CAPTURE(name_of(type), face);
+      const Mesh mesh = with_cut_slave_faces(whole, std::vector{face}, HexaCut::pyramids);
+      const auto at = [&](int node) { return Eigen::Vector3d(mesh.nodes[node].data()); };
+      const auto corners = whole.cell(face).first(static_cast<std::size_t>(corner_count(whole.cell_types[face])));
+      const int count = static_cast<int>(corners.size());
+      const int first = whole.node_count();
+      // On triangles the centre comes after what its edges carry, on quadrangles before.
+      const int centre = count == 3 ? first + 3 : first;
+      CHECK(inner_nodes(mesh, mesh.slave_patches.front()).front() == centre);
+      for (int i = 0; i < count; ++i) {
+        const int middle = count == 3 ? first + i : first + 1 + i;
+        CHECK((at(middle) - (at(centre) + at(corners[static_cast<std::size_t>(i)])) / 2).norm() < 1e-14);
+      }
+      CHECK(mesh.node_count() == first + (type == tetra10 ? 5 : 1 + 2 * count));
     }
   }
 }
