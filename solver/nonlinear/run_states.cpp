@@ -67,11 +67,11 @@ void StaticRun::keep_given(const InitialState& given, ResultStep& step) const {
   if (given.stresses) take_common_values(step.fields.at("SIEF_ELGA"), *given.stresses);
   if (const ElementField* variables = given.variables ? of_memory(&*given.variables) : nullptr)
     take_common_values(step.fields.at("VARI_ELGA"), *variables);
+  if (given.displacement) take_common_values(step.fields.at("DEPL"), *given.displacement);  // multipliers too
   if (given.contact_fields.empty()) return;
   for (const auto& [name, field] : given.contact_fields)
     if (name != "CONT_NOEU") step.fields.insert_or_assign(name, field);
   step.contact = given.contact;
-  if (given.displacement) take_common_values(step.fields.at("DEPL"), *given.displacement);  // multipliers too
 }
 
 // SIP is no stress of the law. With the swelling as an unknown the pressure follows from the law; with the pressure
