@@ -54,14 +54,16 @@ class ZonePoints {
         else
           take_share(point, type, is_carried(cell, type, point.node, rule));
       }
-      if (point.weight == 0.0 || is_nearest_to(point, mesh_, [&](int node) { return excluded_.contains(node); }))
-        continue;
+      if (point.weight == 0.0) continue;
       const auto known = merges_ && point.node >= 0 ? at_nodes_.find(point.node) : at_nodes_.end();
       if (known != at_nodes_.end()) {
         add(point, known->second, points[known->second.index]);
         continue;
       }
-      face_master(at, before_.of(points.size()), point);
+      if (is_nearest_to(point, mesh_, [&](int node) { return excluded_.contains(node); }))
+        point.status = PairingStatus::excluded;
+      else
+        face_master(at, before_.of(points.size()), point);
       if (point.node >= 0) at_nodes_.emplace(point.node, AtNode{points.size(), half_thickness(zone_, cell)});
       points.push_back(point);
     }
@@ -91,6 +93,7 @@ class ZonePoints {
     const auto nodes = mesh_.cell(cell);
     for (std::size_t i = 0; i < nodes.size(); ++i)
       if (std::abs(point.shape[i] - 1.0) < at_node_tolerance) point.node = nodes[i];
+    point.stands_for = at.stands_for < 0 ? point.node : nodes[static_cast<std::size_t>(at.stands_for)];
     point.weight = at.weight * measure(cell, at.xi);
     return point;
   }
@@ -151,8 +154,8 @@ class ZonePoints {
     }
     OwnNodes own = own_nodes(point);
     if (zone_.normal_side != NormalSide::master)
-      own.outward = has_node_normals() && point.node >= 0 ? search_.slave_normal_at(point.node)
-                                                          : search_.slave_normal(point.cell, at.xi);
+      own.outward = has_node_normals() && point.stands_for >= 0 ? search_.slave_normal_at(point.stands_for)
+                                                                : search_.slave_normal(point.cell, at.xi);
     const auto hit = search_.nearest(here, own, before);
     if (!hit) return;
     point.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
@@ -200,7 +203,7 @@ std::vector<ContactPoint> nodal_points(const ContactDefinition& definition, cons
     ContactPoint point;
     point.zone = pair.zone;
     point.cell = cells.at({pair.zone, pair.slave});
-    point.node = pair.slave;
+    point.node = point.stands_for = pair.slave;
     const auto nodes = mesh.cell(point.cell);
     point.shape[static_cast<std::size_t>(std::ranges::find(nodes, pair.slave) - nodes.begin())] = 1.0;
     point.weight = 1.0;

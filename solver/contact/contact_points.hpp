@@ -24,8 +24,9 @@ struct GapShare {
 /// by the same shape functions as displacements.
 struct ContactPoint {
   int zone = 0;
-  int cell = -1;                                ///< slave face
-  int node = -1;                                ///< the slave node on which the point lies; -1: it lies between nodes
+  int cell = -1;        ///< slave face
+  int node = -1;        ///< the slave node on which the point lies; -1: it lies between nodes
+  int stands_for = -1;  ///< the slave node whose state it is: that one, or the one that a rule has it for
   std::array<double, max_facet_nodes> shape{};  ///< of the slave face's nodes
   double weight = 0.0;  ///< initial area (length in the plane; times the radius where axisymmetric)
   PairingStatus status = PairingStatus::outside;

@@ -21,6 +21,8 @@ using Eigen::Vector2d;
 
 constexpr int default_gauss_order = 3;
 constexpr int default_simpson_order = 1;
+/// Gauss's rule of as many points as a quadratic triangle has nodes, in their order.
+constexpr int order_of_six_points = 4;
 constexpr int default_newton_cotes_order = 3;
 
 /// Points of [-1, 1] and their weights.
@@ -191,6 +193,13 @@ std::vector<FacePoint> newton_cotes_triangle(int order) {
   return points;
 }
 
+/// A point next to each corner, and one next to each middle.
+std::vector<FacePoint> six_points() {
+  std::vector<FacePoint> points = gauss_triangle(order_of_six_points);
+  for (std::size_t k = 0; k < points.size(); ++k) points[k].stands_for = static_cast<int>(k);
+  return points;
+}
+
 bool is_triangle(CellType type) { return corner_count(type) == 3; }
 
 LineRule line_of(ContactRule rule, int order) {
@@ -240,7 +249,10 @@ int default_order(ContactRule rule) {
 std::vector<FacePoint> face_rule(CellType type, ContactRule rule, int order) {
   facet_shape(type, facet_centre(type));  // throws where the cell is no facet
   const bool is_quadratic = node_count(type) > corner_count(type);
-  if (rule == ContactRule::automatic && is_quadratic) rule = ContactRule::simpson;
+  if (rule == ContactRule::automatic && is_quadratic) {
+    if (is_triangle(type)) return six_points();
+    rule = ContactRule::simpson;
+  }
   if (order <= 0) order = default_order(rule);
   if (is_triangle(type)) return triangle_rule(rule, order);
   return dimension(type) == 1 ? on_line(line_of(rule, order)) : on_square(line_of(rule, order));

@@ -59,7 +59,10 @@ void ContactRows::number_multipliers() {
       number_patches(static_cast<int>(zone));
       continue;
     }
-    const std::unordered_set<int> excluded(each.excluded_slave_nodes.begin(), each.excluded_slave_nodes.end());
+    // Where pressures are interpolated nodes that are left out have one too, which points left out bring to zero.
+    std::unordered_set<int> excluded;
+    if (definition_.formulation == ContactFormulation::discrete)
+      excluded.insert(each.excluded_slave_nodes.begin(), each.excluded_slave_nodes.end());
     const std::unordered_set<int> frictionless(each.mixed.frictionless_nodes.begin(),
                                                each.mixed.frictionless_nodes.end());
     for (const int node : mesh_.nodes_of_cells(each.slave_cells))

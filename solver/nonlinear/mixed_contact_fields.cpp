@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "solver/contact/patch_field.hpp"
 #include "solver/contact/patch_points.hpp"
@@ -116,20 +117,20 @@ bool is_left_to_creep(const SolvedContact& contact, const ContactPoint& point) {
          std::ranges::find(zone.frictionless_nodes, point.node) != zone.frictionless_nodes.end();
 }
 
-/// Of a point on a node.
+/// Of a point that stands for a node. One that does not lie on it leaves the forces to add_forces_between_nodes().
 NodeContact node_contact(const SolvedContact& contact, Positions positions, std::size_t p) {
   const ContactPoint& point = contact.points()[p];
   const CondensedPoint& condensed = contact.problem.points[p];
   NodeContact node;
   node.pair = {.zone = point.zone,
-               .slave = point.node,
+               .slave = point.stands_for,
                .status = point.status,
                .facet = point.facet,
                .normal = point.normal,
                .foot = point.foot};
   if (condensed.first_row >= 0) {
     node.gap = contact.jumps[condensed.first_row];
-    node.normal_force = contact.forces[condensed.first_row];
+    if (point.node >= 0) node.normal_force = contact.forces[condensed.first_row];
     node.closed = point.status == PairingStatus::paired && contact.is_closed(p);
     node.sticking =
         contact.state.statuses[p] == ContactStatus::sticking || (node.closed && is_left_to_creep(contact, point));
@@ -138,10 +139,19 @@ NodeContact node_contact(const SolvedContact& contact, Positions positions, std:
     node.has_foot = node.closed;
   else if (point.facet >= 0)
     node.pair.foot = place_on_facet(contact.mesh, point, positions);
-  node.shear_force = shear_force(contact, p);
+  if (point.node >= 0) node.shear_force = shear_force(contact, p);
   for (int c = 1; c < condensed.rows; ++c)
     node.slip[c - 1] = contact.is_closed(p) ? contact.jumps[condensed.first_row + c] : 0.0;
   return node;
+}
+
+/// Of several faces whose points stand for a node the last one tells how it is (Code_Aster 17.3); its forces are those
+/// of all points.
+void show_state(const NodeContact& point, NodeContact& node) {
+  const NodeContact before = std::exchange(node, point);
+  node.normal_force = before.normal_force;
+  node.shear_force = before.shear_force;
+  if (before.normal_force > 0.0) node.pair.normal = before.pair.normal;
 }
 
 /// Nodes bear their shares of what points between them do, so that all together bear the whole force. Those without a
@@ -238,11 +248,13 @@ std::optional<NodalField> contact_state(const SolvedContact& contact, Positions 
   std::map<Key, std::size_t> by_node;
   for (std::size_t p = 0; p < contact.points().size(); ++p) {
     const ContactPoint& point = contact.points()[p];
-    if (point.node < 0 || point.area > 0.0 || point.status == PairingStatus::watched) continue;
+    if (point.stands_for < 0 || point.area > 0.0 || point.status == PairingStatus::watched) continue;
     const NodeContact node = node_contact(contact, positions, p);
-    const auto [known, is_first] = by_node.emplace(Key(point.zone, point.node), contacts.size());
+    const auto [known, is_first] = by_node.emplace(Key(point.zone, point.stands_for), contacts.size());
     if (is_first) {
       contacts.push_back(node);
+    } else if (point.node < 0) {
+      show_state(node, contacts[known->second]);
     } else if (node.pair.status == PairingStatus::paired &&
                contacts[known->second].pair.status == PairingStatus::paired) {
       add_contact(node, contacts[known->second]);

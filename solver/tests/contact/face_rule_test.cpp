@@ -78,6 +78,17 @@ TEST_CASE("Every rule integrates one; the automatic ones lie on the nodes of lin
     }
 }
 
+TEST_CASE("The automatic rule of six-node triangles is of degree 4, each point nearest to the node it stands for") {
+  CHECK(integral(CellType::tria6, ContactRule::automatic, 0, 2, 2) ==
+        Approx(std::tgamma(3.0) * std::tgamma(3.0) / std::tgamma(7.0)));
+  int node = 0;
+  for (const FacePoint& point : face_rule(CellType::tria6, ContactRule::automatic, 0)) {
+    const auto shape = facet_shape(CellType::tria6, point.xi).values;
+    CHECK(std::max_element(shape.begin(), shape.begin() + 6) - shape.begin() == node);
+    CHECK(point.stands_for == node++);
+  }
+}
+
 TEST_CASE("An order that triangles have no Gauss rule of is an error") {
   CHECK_THROWS_AS(face_rule(CellType::tria3, ContactRule::gauss, 7), Error);
 }
