@@ -21,6 +21,10 @@ using Key = ContactRows::Key;
 /// A prescribed slip below this share of the largest displacement is none.
 constexpr double least_prescribed_slip = 1e-9;
 
+/// In the mixed formulation a node slides from this share of the limit of friction on (LAGS_F1 and LAGS_F2), whatever
+/// its points do (Code_Aster 17.3: 0.99909 slides, 0.99524 sticks, also where the augmentation brings it beyond one).
+constexpr double sliding_share = 0.999;
+
 void add_forces(const Vector3d& normal, const Vector3d& shear, NodeContact& sum) {
   const Vector3d whole = sum.normal_force * sum.pair.normal + normal;
   sum.shear_force += shear;
@@ -117,8 +121,22 @@ bool is_left_to_creep(const SolvedContact& contact, const ContactPoint& point) {
          std::ranges::find(zone.frictionless_nodes, point.node) != zone.frictionless_nodes.end();
 }
 
+/// `shares`: the multipliers as they are shown.
+bool is_sticking(const SolvedContact& contact, std::size_t p, const Eigen::VectorXd& shares) {
+  const ContactPoint& point = contact.points()[p];
+  const CondensedPoint& condensed = contact.problem.points[p];
+  if (contact.definition.formulation == ContactFormulation::discrete || condensed.components < 2 ||
+      condensed.idle_friction > 0.0)
+    return contact.state.statuses[p] == ContactStatus::sticking;
+  const auto number = contact.rows.multiplier_numbers().find(Key(point.zone, point.stands_for));
+  const int components = contact.problem.components;
+  return number != contact.rows.multiplier_numbers().end() &&
+         shares.segment(number->second * components + 1, components - 1).norm() < sliding_share;
+}
+
 /// Of a point that stands for a node. One that does not lie on it leaves the forces to add_forces_between_nodes().
-NodeContact node_contact(const SolvedContact& contact, Positions positions, std::size_t p) {
+NodeContact node_contact(const SolvedContact& contact, Positions positions, std::size_t p,
+                         const Eigen::VectorXd& shares) {
   const ContactPoint& point = contact.points()[p];
   const CondensedPoint& condensed = contact.problem.points[p];
   NodeContact node;
@@ -132,8 +150,7 @@ NodeContact node_contact(const SolvedContact& contact, Positions positions, std:
     node.gap = contact.jumps[condensed.first_row];
     if (point.node >= 0) node.normal_force = contact.forces[condensed.first_row];
     node.closed = point.status == PairingStatus::paired && contact.is_closed(p);
-    node.sticking =
-        contact.state.statuses[p] == ContactStatus::sticking || (node.closed && is_left_to_creep(contact, point));
+    node.sticking = node.closed && (is_sticking(contact, p, shares) || is_left_to_creep(contact, point));
   }
   if (contact.definition.formulation == ContactFormulation::discrete)
     node.has_foot = node.closed;
@@ -246,10 +263,11 @@ std::optional<NodalField> contact_state(const SolvedContact& contact, Positions 
                                         double instant, double duration) {
   std::vector<NodeContact> contacts;
   std::map<Key, std::size_t> by_node;
+  const Eigen::VectorXd shares = contact.rows.with_shares(contact.state.multipliers, contact.problem.components);
   for (std::size_t p = 0; p < contact.points().size(); ++p) {
     const ContactPoint& point = contact.points()[p];
     if (point.stands_for < 0 || point.area > 0.0 || point.status == PairingStatus::watched) continue;
-    const NodeContact node = node_contact(contact, positions, p);
+    const NodeContact node = node_contact(contact, positions, p, shares);
     const auto [known, is_first] = by_node.emplace(Key(point.zone, point.stands_for), contacts.size());
     if (is_first) {
       contacts.push_back(node);
