@@ -54,13 +54,14 @@ class ZonePoints {
         else
           take_share(point, type, is_carried(cell, type, point.node, rule));
       }
-      if (point.weight == 0.0) continue;
+      const bool excluded = is_nearest_to(point, mesh_, [&](int node) { return excluded_.contains(node); });
+      if (point.weight == 0.0 || (excluded && !keeps_excluded_pressures(zone_))) continue;
       const auto known = merges_ && point.node >= 0 ? at_nodes_.find(point.node) : at_nodes_.end();
       if (known != at_nodes_.end()) {
         add(point, known->second, points[known->second.index]);
         continue;
       }
-      if (is_nearest_to(point, mesh_, [&](int node) { return excluded_.contains(node); }))
+      if (excluded)
         point.status = PairingStatus::excluded;
       else
         face_master(at, before_.of(points.size()), point);
@@ -243,6 +244,8 @@ std::vector<ContactPoint> contact_points(const ContactDefinition& definition, co
   }
   return points;
 }
+
+bool keeps_excluded_pressures(const ContactZone& zone) { return zone.mixed.rule == ContactRule::automatic; }
 
 bool is_nearest_to(const ContactPoint& point, const Mesh& mesh, const std::function<bool(int)>& is_such_node) {
   if (point.node >= 0) return is_such_node(point.node);

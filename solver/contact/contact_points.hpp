@@ -45,14 +45,19 @@ struct ContactPoint {
 };
 
 /// Zones in order, faces in order (R5.03.52). Points that share a node and a normal are one, with the sum of their
-/// weights and the weighted mean of their faces' thicknesses, which is the same discrete problem. Neither excluded
-/// nodes nor places between nodes that are nearest to excluded ones have a point. In the discrete formulation the
+/// weights and the weighted mean of their faces' thicknesses, which is the same discrete problem. Excluded
+/// nodes, and places between nodes that are nearest to excluded ones, have a point of PairingStatus::excluded that is
+/// open, or none (see keeps_excluded_pressures()). In the discrete formulation the
 /// points are the slave nodes that may make contact, of weight one: their tractions are forces. `time`: at which
 /// thicknesses are read. Zones of local average contact have a point a patch. `before`: what each faced at the last
 /// pairing, if anything is to be kept of it (averages over patches keep nothing). Throws what face_rule, projections
 /// and normals throw.
 std::vector<ContactPoint> contact_points(const ContactDefinition& definition, const Model& model, Positions positions,
                                          double time, const FacedFacets& before = {});
+
+/// Whether nodes that are left out of a zone of the mixed formulation keep a pressure, which points left out bring to
+/// zero. With INTEGRATION='AUTO' (Code_Aster 17.3, which refuses to leave nodes out with other rules).
+bool keeps_excluded_pressures(const ContactZone& zone);
 
 /// Whether the node on which a point lies is such a node; between nodes, whether all that are nearest to it are: those
 /// that its shape functions weigh most.

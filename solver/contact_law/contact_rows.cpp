@@ -59,9 +59,8 @@ void ContactRows::number_multipliers() {
       number_patches(static_cast<int>(zone));
       continue;
     }
-    // Where pressures are interpolated nodes that are left out have one too, which points left out bring to zero.
     std::unordered_set<int> excluded;
-    if (definition_.formulation == ContactFormulation::discrete)
+    if (definition_.formulation == ContactFormulation::discrete || !keeps_excluded_pressures(each))
       excluded.insert(each.excluded_slave_nodes.begin(), each.excluded_slave_nodes.end());
     const std::unordered_set<int> frictionless(each.mixed.frictionless_nodes.begin(),
                                                each.mixed.frictionless_nodes.end());
