@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include "solver/elements/reference_element.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/boundary.hpp"
 #include "solver/mesh/new_names.hpp"
@@ -168,61 +169,53 @@ class SlaveCutter {
   /// on the surface that the shape functions describe. Their numbers are those of Code_Aster 17.3.
   void prepare_centre(const Cell& face) {
     middles_.clear();
-    const auto corners = static_cast<std::size_t>(corner_count(face.type));
-    const auto sum = [&](std::size_t from, std::size_t to) {
-      Vector3d total = Vector3d::Zero();
-      for (std::size_t i = from; i < to; ++i) total += place(face.nodes[i]);
-      return total;
-    };
+    const Vector3d centre = reference_centre(face, corners_of(face));
     const auto add_middles = [&] {
-      for (std::size_t i = 0; i < corners; ++i) middles_.emplace(face.nodes[i], add_node(half_way(face, i)));
+      for (const int corner : corners_of(face)) add_middle(face, corner, centre);
     };
-    if (face.type == tria6) {
-      add_middles();
-      centre_ = add_node(-sum(0, 3) / 9 + sum(3, 6) * 4 / 9);
-    } else if (face.type == quad8) {
-      centre_ = add_node(-sum(0, 4) / 4 + sum(4, 8) / 2);
-      add_middles();
-    } else {
-      centre_ = add_node(sum(0, corners) / static_cast<double>(corners));
-    }
+    if (face.type == tria6) add_middles();
+    centre_ = add_node(place_in(face, centre));
+    if (face.type == quad8) add_middles();
   }
 
   /// Between the centre and the corners of a quadratic body off the face, in the order of the corners of the face that
-  /// edges lead from (Code_Aster 17.3).
+  /// edges lead from, where the body's shape functions have them (Code_Aster 17.3).
   void add_middles_behind(const Cell& face, const Cell& body) {
     if (middles_.empty()) return;
     const auto on_face = [&](int node) { return std::ranges::find(face.nodes, node) != face.nodes.end(); };
+    const Vector3d centre = reference_centre(body, corners_of(face));
     for (const int corner : corners_of(face))
       for (const auto& edge : middle_edges(body.type)) {
         const int first = body.nodes[static_cast<std::size_t>(edge[0])];
         const int second = body.nodes[static_cast<std::size_t>(edge[1])];
         if (first != corner && second != corner) continue;
         const int other = first == corner ? second : first;
-        if (!on_face(other)) middle(other);
+        if (!on_face(other) && !middles_.contains(other)) add_middle(body, other, centre);
       }
   }
 
-  /// Half-way, in reference coordinates, from a corner of a quadratic face to its centre.
-  Vector3d half_way(const Cell& face, std::size_t i) const {
-    const auto at = [&](std::size_t local) { return place(face.nodes[local]); };
-    if (face.type == tria6) {
-      const std::size_t j = (i + 1) % 3;
-      const std::size_t k = (i + 2) % 3;
-      return (2 * at(i) - at(j) - at(k) + 4 * (at(3 + i) + at(3 + k)) + at(3 + j)) / 9;
-    }
-    const std::size_t next = (i + 1) % 4;
-    const std::size_t across = (i + 2) % 4;
-    const std::size_t last = (i + 3) % 4;
-    return (-3 * (at(next) + at(last)) - 2 * at(across) + 9 * (at(4 + i) + at(4 + last)) +
-            3 * (at(4 + next) + at(4 + across))) /
-           16;
+  static Vector3d reference_place(const Cell& cell, int node) {
+    const auto at = std::ranges::find(cell.nodes, node) - cell.nodes.begin();
+    return Vector3d(reference_nodes(cell.type)[static_cast<std::size_t>(at)].data());
   }
 
-  int middle(int corner) {
-    const auto found = middles_.find(corner);
-    if (found != middles_.end()) return found->second;
-    return middles_.emplace(corner, add_node((place(corner) + place(centre_)) / 2)).first->second;
+  static Vector3d reference_centre(const Cell& cell, std::span<const int> nodes) {
+    Vector3d sum = Vector3d::Zero();
+    for (const int node : nodes) sum += reference_place(cell, node);
+    return sum / static_cast<double>(nodes.size());
+  }
+
+  Vector3d place_in(const Cell& cell, const Vector3d& at) const {
+    const Eigen::VectorXd shape = shape_functions(cell.type, {at[0], at[1], at[2]});
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t i = 0; i < cell.nodes.size(); ++i)
+      sum += shape[static_cast<Eigen::Index>(i)] * place(cell.nodes[i]);
+    return sum;
+  }
+
+  /// Half-way, in reference coordinates, from a corner to the centre.
+  void add_middle(const Cell& cell, int corner, const Vector3d& centre) {
+    middles_.emplace(corner, add_node(place_in(cell, 0.5 * (reference_place(cell, corner) + centre))));
   }
 
   /// Between the centre of the face and each facet, but the face itself.
@@ -248,7 +241,7 @@ class SlaveCutter {
     return {{seg2, {whole.nodes[0], centre_}}, {seg2, {centre_, whole.nodes[1]}}};
   }
 
-  Cell cone(const Cell& base, CellType type) {
+  Cell cone(const Cell& base, CellType type) const {
     Cell result{type, std::vector<int>(static_cast<std::size_t>(node_count(type)), centre_)};
     const BoundaryFacet& own = boundary_facets(type).front();
     for (std::size_t i = 0; i < base.nodes.size(); ++i)
@@ -259,7 +252,7 @@ class SlaveCutter {
       if (edges[e][0] != apex && edges[e][1] != apex) continue;
       const int corner = edges[e][0] == apex ? edges[e][1] : edges[e][0];
       result.nodes[static_cast<std::size_t>(corner_count(type)) + e] =
-          middle(result.nodes[static_cast<std::size_t>(corner)]);
+          middles_.at(result.nodes[static_cast<std::size_t>(corner)]);
     }
     return result;
   }
