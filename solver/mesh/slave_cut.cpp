@@ -153,7 +153,7 @@ class SlaveCutter {
     std::vector<Cell> body_pieces;
     if (around_inner) {
       prepare_inner(face, body);
-      body_pieces = by_hexahedra ? hexahedra(body, key) : quadrangles_behind(body, key);
+      body_pieces = by_hexahedra ? hexahedra(body, cell(face)) : quadrangles_behind(body, key);
     } else {
       prepare_centre(cell(face));
       add_middles_behind(cell(face), cell(body));
@@ -303,11 +303,12 @@ class SlaveCutter {
             {quad4, {deep[0], deep[1], corner[2], corner[3]}}};
   }
 
-  /// One hexahedron under the inner square, one between it and each of the other facets.
-  std::vector<Cell> hexahedra(int body, const FacetKey& key) {
+  /// One hexahedron under the inner square, one between it and each of the other facets. New nodes in the order of the
+  /// skin's corners (Code_Aster 17.3).
+  std::vector<Cell> hexahedra(int body, const Cell& skin) {
     Cell face;
     for (const Cell& facet : facets_of(cell(body)))
-      if (key_of(corners_of(facet)) == key) face = facet;
+      if (key_of(corners_of(facet)) == key_of(corners_of(skin))) face = facet;
     std::array<int, 4> top{}, base{}, shallow{}, deep{};  // corners of the face, those below them, and the inner ones
     Vector3d base_centre = Vector3d::Zero();
     for (std::size_t i = 0; i < 4; ++i) {
@@ -316,7 +317,10 @@ class SlaveCutter {
       shallow[i] = inner_.at(top[i]);
       base_centre += place(base[i]) / 4;
     }
-    for (std::size_t i = 0; i < 4; ++i) deep[i] = add_deep(shallow[i], base[i], base_centre);
+    for (const int corner : corners_of(skin)) {
+      const auto i = static_cast<std::size_t>(std::ranges::find(top, corner) - top.begin());
+      deep[i] = add_deep(shallow[i], base[i], base_centre);
+    }
     const auto hexahedron = [](const std::array<int, 4>& low, const std::array<int, 4>& high) {
       return Cell{hexa8, {low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]}};
     };

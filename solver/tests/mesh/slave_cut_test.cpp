@@ -141,6 +141,14 @@ TEST_CASE("Six hexahedra fill the one behind a slave face", "[mesh]") {
     REQUIRE(mesh.slave_patches.size() == 1);
     CHECK(mesh.slave_patches.front().size() == 5);
     CHECK(inner_nodes(mesh, mesh.slave_patches.front()).size() == 4);
+    // Of each corner in turn the node inside the face, then each one's below it (Code_Aster 17.3).
+    const auto at = [&](int node) { return Eigen::Vector3d(mesh.nodes[node].data()); };
+    for (int added = 0; added < 8; ++added) {
+      const int node = whole.node_count() + added;
+      const int corner = whole.cell(face)[static_cast<std::size_t>(added % 4)];
+      for (const int other : whole.cell(face))
+        if (other != corner) CHECK((at(node) - at(corner)).norm() < (at(node) - at(other)).norm());
+    }
   }
 }
 
