@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
+#include "solver/elements/reference_element.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/boundary.hpp"
 #include "solver/mesh/new_names.hpp"
@@ -22,7 +23,7 @@ namespace {
 using enum CellType;
 using Eigen::Vector3d;
 
-/// The inner piece of a face that is cut around one, over the face.
+/// The inner piece of a face that is cut around one, over the face, in reference coordinates.
 constexpr double inner_share = 1.0 / 3;
 /// How deep the inner hexahedron or quadrangle reaches into the body.
 constexpr double inner_depth = 0.5;
@@ -155,6 +156,7 @@ class SlaveCutter {
       body_pieces = by_hexahedra ? hexahedra(body, key) : quadrangles_behind(body, key);
     } else {
       prepare_centre(cell(face));
+      body_ = body;
       body_pieces = cones(facets_of(cell(body)), key, body);
     }
     for (const int skin : skins_.at(key))
@@ -167,6 +169,7 @@ class SlaveCutter {
   /// faces they lie on the surface that the shape functions describe.
   void prepare_centre(const Cell& face) {
     middles_.clear();
+    face_corners_.assign(corners_of(face).begin(), corners_of(face).end());
     const auto corners = static_cast<std::size_t>(corner_count(face.type));
     const auto sum = [&](std::size_t from, std::size_t to) {
       Vector3d total = Vector3d::Zero();
@@ -203,7 +206,27 @@ class SlaveCutter {
   int middle(int corner) {
     const auto found = middles_.find(corner);
     if (found != middles_.end()) return found->second;
-    return middles_.emplace(corner, add_node((place(corner) + place(centre_)) / 2)).first->second;
+    return middles_.emplace(corner, add_node(half_way_inside(corner))).first->second;
+  }
+
+  /// Half-way, in reference coordinates of the body that is cut, from one of its corners to the centre of the face.
+  Vector3d half_way_inside(int corner) const {
+    const Cell& body = cell(body_);
+    const auto references = reference_points(body.type);
+    Vector3d centre = Vector3d::Zero();
+    for (const int node : face_corners_)
+      centre += reference_of(body, references, node) / static_cast<double>(face_corners_.size());
+    const Vector3d at = (reference_of(body, references, corner) + centre) / 2;
+    const Eigen::VectorXd shares = shape_functions(body.type, {at[0], at[1], at[2]});
+    Vector3d total = Vector3d::Zero();
+    for (std::size_t i = 0; i < body.nodes.size(); ++i)
+      total += shares[static_cast<Eigen::Index>(i)] * place(body.nodes[i]);
+    return total;
+  }
+
+  static Vector3d reference_of(const Cell& body, const std::vector<Point>& references, int node) {
+    const auto local = std::ranges::find(body.nodes, node) - body.nodes.begin();
+    return Vector3d(references[static_cast<std::size_t>(local)].data());
   }
 
   /// Between the centre of the face and each facet, but the face itself.
@@ -252,10 +275,17 @@ class SlaveCutter {
                               name_of(cell(body).type), source_.cell_name(face)),
                   "write DECOUPE_HEXA='PYRA'");
     inner_.clear();
-    Vector3d centre = Vector3d::Zero();
-    for (const int node : cell(face).nodes) centre += place(node) / static_cast<double>(cell(face).nodes.size());
-    for (const int node : cell(face).nodes)
-      inner_.emplace(node, add_node(centre + inner_share * (place(node) - centre)));
+    const auto& corners = cell(face).nodes;
+    for (std::size_t i = 0; i < corners.size(); ++i) inner_.emplace(corners[i], add_node(inner_place(corners, i)));
+  }
+
+  /// Where the inner cell of a line or a quadrangle has its corner: where the shape functions carry it.
+  Vector3d inner_place(std::span<const int> corners, std::size_t i) const {
+    const auto at = [&](std::size_t step) { return place(corners[(i + step) % corners.size()]); };
+    const double near = (1 + inner_share) / 2;
+    const double far = 1 - near;
+    if (corners.size() == 2) return near * at(0) + far * at(1);
+    return near * near * at(0) + near * far * (at(1) + at(3)) + far * far * at(2);
   }
 
   std::vector<Cell> pieces_around_inner(const Cell& face) const {
@@ -270,10 +300,9 @@ class SlaveCutter {
     return pieces;
   }
 
-  /// The inner node below one on the face, towards a corner of the body's base about its centre.
-  int add_deep(int shallow, int base, const Vector3d& base_centre) {
-    const Vector3d beneath = base_centre + inner_share * (place(base) - base_centre);
-    return add_node((1 - inner_depth) * place(shallow) + inner_depth * beneath);
+  /// The inner node below one on the face, towards the one of the body's base.
+  int add_deep(int shallow, std::span<const int> base, std::size_t i) {
+    return add_node((1 - inner_depth) * place(shallow) + inner_depth * inner_place(base, i));
   }
 
   /// Four: one below the middle third of the face, half as deep as the body, and one between it and each of the body's
@@ -282,9 +311,9 @@ class SlaveCutter {
     std::vector<int> corner = cell(body).nodes;  // the first two on the face
     while (key_of(std::span(corner).first(2)) != key) std::ranges::rotate(corner, corner.begin() + 1);
     const std::array<int, 2> shallow = {inner_.at(corner[0]), inner_.at(corner[1])};
-    const Vector3d base_centre = (place(corner[2]) + place(corner[3])) / 2;
+    const std::array<int, 2> base = {corner[3], corner[2]};
     std::array<int, 2> deep{};
-    for (std::size_t i = 0; i < 2; ++i) deep[i] = add_deep(shallow[i], corner[3 - i], base_centre);
+    for (std::size_t i = 0; i < 2; ++i) deep[i] = add_deep(shallow[i], base, i);
     return {{quad4, {shallow[0], shallow[1], deep[1], deep[0]}},
             {quad4, {corner[0], shallow[0], deep[0], corner[3]}},
             {quad4, {shallow[1], corner[1], corner[2], deep[1]}},
@@ -297,14 +326,12 @@ class SlaveCutter {
     for (const Cell& facet : facets_of(cell(body)))
       if (key_of(corners_of(facet)) == key) face = facet;
     std::array<int, 4> top{}, base{}, shallow{}, deep{};  // corners of the face, those below them, and the inner ones
-    Vector3d base_centre = Vector3d::Zero();
     for (std::size_t i = 0; i < 4; ++i) {
       top[i] = face.nodes[i];
       base[i] = below(cell(body), face, top[i]);
       shallow[i] = inner_.at(top[i]);
-      base_centre += place(base[i]) / 4;
     }
-    for (std::size_t i = 0; i < 4; ++i) deep[i] = add_deep(shallow[i], base[i], base_centre);
+    for (std::size_t i = 0; i < 4; ++i) deep[i] = add_deep(shallow[i], base, i);
     const auto hexahedron = [](const std::array<int, 4>& low, const std::array<int, 4>& high) {
       return Cell{hexa8, {low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]}};
     };
@@ -372,6 +399,8 @@ class SlaveCutter {
   std::vector<std::vector<int>> pieces_;  ///< of each cell: what was cut off it
   std::unordered_map<FacetKey, std::vector<int>, FacetKeyHash> skins_;
   std::unordered_map<FacetKey, std::vector<int>, FacetKeyHash> bodies_;
+  int body_ = -1;                  ///< the body that is being cut
+  std::vector<int> face_corners_;  ///< of the face that it is cut behind
   int centre_ = -1;
   std::map<int, int> middles_;  ///< by corner: the node between it and the centre
   std::map<int, int> inner_;    ///< by corner: that of the inner square
