@@ -30,7 +30,6 @@ Product tabulated(const Call& call, const FunctionConcept& source) {
                           "give NOM_PARA_FONC with values: a function of two parameters is made");
   }
   solver::TabulatedFunction function;
-  if (const auto* table = source.table()) function = *table;
   if (!source.parameters().empty()) function.parameter = source.parameters().front();
   if (call.has("NOM_PARA")) function.parameter = call.text("NOM_PARA");
   if (call.has("NOM_RESU")) function.result = call.text("NOM_RESU");
@@ -86,7 +85,7 @@ Product tabulated_surface(const Call& call, const FunctionConcept& source) {
 
 }  // namespace
 
-// A formula at the points of a list (U4.32.01); what is not said is as in the source, where that is a table itself.
+// A function at the points of a list (U4.32.01); what is not said is linear, ends there, and has no name.
 Product calc_fonc_interp(const Call& call, Context&) {
   const auto& source = call.data<FunctionConcept>("FONCTION");
   const bool surface = call.has("VALE_PARA_FONC") || call.has("LIST_PARA_FONC");

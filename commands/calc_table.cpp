@@ -192,39 +192,35 @@ void show_statistics(const Table& table, const Context& context) {
   }
 }
 
-/// COMB: the rows of two tables put together where the key columns agree; of another column that both have, the second
-/// table's cell stays.
+/// COMB: the rows of a table, with those of another one that agree in the key columns, then the others of that one; of
+/// another column that both have, the second table's cell stays. Without keys no rows agree (17.3).
 class Join {
  public:
   Join(const Table& left, const Table& right, const Keywords& action)
       : right_(right), result_(left), same_(same_key(action)) {
-    std::vector<std::string> keys = action.texts("NOM_PARA");
-    if (keys.empty()) {
-      std::copy_if(left.columns.begin(), left.columns.end(), std::back_inserter(keys),
-                   [&](const auto& name) { return right.column(name) >= 0; });
-    }
-    if (keys.empty())
-      throw DiagnosticError("wrong-count", "CALC_TABLE: the two tables have no column in common",
-                            action.span_of("TABLE"));
-    for (const std::string& name : keys) {
+    for (const std::string& name : action.texts("NOM_PARA")) {
       left_keys_.push_back(column_of(left, name, action));
       right_keys_.push_back(column_of(right, name, action));
     }
-    for (const std::string& name : right.columns) targets_.push_back(result_.add_column(name));
+    if (!left_keys_.empty() || !is_restricted(action))
+      for (const std::string& name : right.columns) targets_.push_back(result_.add_column(name));
   }
 
+  static bool is_restricted(const Keywords& action) { return action.text("RESTREINT") == "OUI"; }
+
+  /// `restricted`: without rows that the first table has not.
   Table run(bool restricted) {
     RowKeys unused(right_keys_, same_);
-    for (std::size_t i = 0; i < right_.rows.size(); ++i) unused.add(right_.rows[i], i);
+    for (std::size_t i = 0; i < right_.rows.size() && !right_keys_.empty(); ++i) unused.add(right_.rows[i], i);
     std::vector<bool> used(right_.rows.size(), false);
     std::vector<std::vector<Cell>> rows;
     for (auto& row : result_.rows) {
-      const auto match = unused.take(row, left_keys_);
+      const auto match = left_keys_.empty() ? std::nullopt : unused.take(row, left_keys_);
       if (match) {
         fill(row, *match);
         used[*match] = true;
       }
-      if (match || !restricted) rows.push_back(std::move(row));
+      rows.push_back(std::move(row));
     }
     for (std::size_t i = 0; i < right_.rows.size() && !restricted; ++i) {
       if (!used[i]) fill(rows.emplace_back(result_.columns.size()), i);
@@ -252,7 +248,7 @@ Table acted(Table table, const Keywords& action, const Context& context) {
   if (operation == "SUPPRIME") return without_columns(table, columns_of(table, action));
   if (operation == "CALCUL") return reduce(table, action);
   if (operation == "COMB")
-    return Join(table, action.data<TableConcept>("TABLE").table, action).run(action.text("RESTREINT") == "OUI");
+    return Join(table, action.data<TableConcept>("TABLE").table, action).run(Join::is_restricted(action));
   if (operation == "RENOMME") rename(table, action);
   if (operation == "TRI") sort_rows(table, action);
   if (operation == "UNIQUE") keep_different(table, action);

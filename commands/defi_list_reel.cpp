@@ -16,7 +16,8 @@ constexpr double step_rounding = 1e-3;
 // Far more than anything could be computed at; a slip of the pen would fill the memory before that is noticed.
 constexpr double most_reals = 1e7;
 
-int steps_of(const Keywords& interval, double length) {
+// How many steps an interval has, the last one included where it is shorter.
+int steps_of(const Keywords& interval, double length, const Context& context) {
   const bool counted = interval.has("NOMBRE");
   const double exact = counted ? static_cast<double>(interval.integer("NOMBRE")) : length / interval.real("PAS");
   if (!(exact <= most_reals)) {
@@ -25,16 +26,18 @@ int steps_of(const Keywords& interval, double length) {
                           interval.span_of(counted ? "NOMBRE" : "PAS"), "take fewer or longer steps");
   }
   const double steps = std::round(exact);
-  if (steps < 1.0 || std::abs(exact - steps) > step_rounding) {
-    throw DiagnosticError(
-        "wrong-step",
-        fmt::format("DEFI_LIST_REEL: {} steps of PAS fill the interval; it must be a whole number", exact),
-        interval.span, "change PAS or JUSQU_A, or give NOMBRE");
+  if (steps >= 1.0 && std::abs(exact - steps) <= step_rounding) return static_cast<int>(steps);
+  if (exact < 1.0) {
+    throw DiagnosticError("wrong-step", "DEFI_LIST_REEL: PAS is longer than the interval", interval.span_of("PAS"),
+                          "take a shorter step, or give NOMBRE");
   }
-  return static_cast<int>(steps);
+  context.diagnostics.alarm("short-step",
+                            fmt::format("DEFI_LIST_REEL: the last step is {:.4g} of PAS", exact - std::floor(exact)),
+                            interval.span_of("PAS"), "change PAS or JUSQU_A, or give NOMBRE");
+  return static_cast<int>(std::ceil(exact));
 }
 
-std::vector<double> by_intervals(const Call& call) {
+std::vector<double> by_intervals(const Call& call, const Context& context) {
   std::vector<double> values = {call.real("DEBUT")};
   for (const Keywords& interval : call.factors("INTERVALLE")) {
     const double begin = values.back();
@@ -44,8 +47,10 @@ std::vector<double> by_intervals(const Call& call) {
                             fmt::format("DEFI_LIST_REEL: JUSQU_A = {} does not lie beyond {}", end, begin),
                             interval.span_of("JUSQU_A"), "values must rise");
     }
-    const int steps = steps_of(interval, end - begin);
-    const double step = (end - begin) / steps;
+    const int steps = steps_of(interval, end - begin, context);
+    const bool is_even =
+        !interval.has("PAS") || std::abs((end - begin) / interval.real("PAS") - steps) <= step_rounding;
+    const double step = is_even ? (end - begin) / steps : interval.real("PAS");
     for (int i = 1; i < steps; ++i) values.push_back(begin + i * step);
     values.push_back(end);
   }
@@ -54,9 +59,9 @@ std::vector<double> by_intervals(const Call& call) {
 
 }  // namespace
 
-Product defi_list_reel(const Call& call, Context&) {
+Product defi_list_reel(const Call& call, Context& context) {
   auto product = std::make_shared<ListConcept>();
-  product->values = call.has("VALE") ? call.reals("VALE") : by_intervals(call);
+  product->values = call.has("VALE") ? call.reals("VALE") : by_intervals(call, context);
   for (std::size_t i = 1; i < product->values.size(); ++i) {
     if (product->values[i] > product->values[i - 1]) continue;
     throw DiagnosticError(

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -20,6 +21,9 @@ namespace {
 
 using interpreter::DiagnosticError;
 using solver::Point;
+
+// The cosine of the angle of two axes that still counts as none: directions that are written with seven digits.
+constexpr double squareness = 1e-6;
 
 PlaceKeywords cell_group_keyword(const std::string& name) { return {"", "", "", name, ""}; }
 
@@ -49,14 +53,15 @@ void orient_skin(const Keywords& skin, solver::Mesh& mesh, const char* skin_name
 
 using Orient = int (*)(solver::Mesh&, std::span<const int>, const std::optional<solver::OrientationSeed>&);
 
-// ORIE_NORM_COQUE and ORIE_LIGNE: cells run alike, and as a direction at a node says.
+// ORIE_NORM_COQUE and ORIE_LIGNE: the cells of each group run alike, and as a direction at a node says.
 void orient_alike(const Keywords& sheet, solver::Mesh& mesh, const std::string& direction, Orient orient,
                   const Context& context) {
-  const auto cells = selected_cells(sheet, mesh, cell_group_keyword("GROUP_MA"));
   std::optional<solver::OrientationSeed> seed;
   if (sheet.given(direction)) seed = {single_node(sheet, "NOEUD", "GROUP_NO", mesh), point_of(sheet, direction)};
-  const int turned = orient(mesh, cells, seed);
-  context.console.detail(fmt::format("  {} of {} cells turned", turned, cells.size()));
+  for (const auto& cells : named_cell_groups(sheet, "GROUP_MA", mesh)) {
+    const int turned = orient(mesh, cells, seed);
+    context.console.detail(fmt::format("  {} of {} cells turned", turned, cells.size()));
+  }
 }
 
 Point difference(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
@@ -93,7 +98,13 @@ void change_axes(const Keywords& axes, solver::Mesh& mesh) {
     throw DiagnosticError("missing-keyword", "MODI_MAILLAGE/MODI_BASE: in space the new axes need two directions",
                           axes.span, "give VECT_Y");
   }
-  solver::change_axes(mesh, x, axes.given("VECT_Y") ? point_of(axes, "VECT_Y") : Point{-x[1], x[0], 0.0});
+  const Point y = axes.given("VECT_Y") ? point_of(axes, "VECT_Y") : Point{-x[1], x[0], 0.0};
+  const double lengths = std::hypot(x[0], x[1], x[2]) * std::hypot(y[0], y[1], y[2]);
+  if (std::abs(x[0] * y[0] + x[1] * y[1] + x[2] * y[2]) > squareness * lengths) {
+    throw DiagnosticError("oblique-axes", "MODI_MAILLAGE/MODI_BASE: VECT_X and VECT_Y are not at right angles",
+                          axes.span_of("VECT_Y"), "take off VECT_Y what of it lies along VECT_X");
+  }
+  solver::change_axes(mesh, x, y);
 }
 
 void deform(const Keywords& deformation, solver::Mesh& mesh) {

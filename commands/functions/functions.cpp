@@ -10,6 +10,7 @@
 #include "commands/diagnosed.hpp"
 #include "commands/functions/function_building.hpp"
 #include "commands/nearest.hpp"
+#include "interpreter/array.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
 #include "solver/functions/deformed_place.hpp"
@@ -110,7 +111,7 @@ Items attributes_of(const solver::TabulatedFunction& table) {
 
 std::vector<std::string> FunctionConcept::method_names() const {
   if (table() == nullptr) return {};
-  return {"Absc", "Ordo", "Parametres", "Valeurs", "getValues", "size"};
+  return {"Absc", "Ordo", "Parametres", "Valeurs", "getValues", "getValuesAsArray", "size"};
 }
 
 Value FunctionConcept::method(std::string_view name, const std::vector<Value>& arguments,
@@ -122,6 +123,11 @@ Value FunctionConcept::method(std::string_view name, const std::vector<Value>& a
       std::vector<double> values = table()->x;
       values.insert(values.end(), table()->y.begin(), table()->y.end());
       return list_of(values);
+    }
+    if (name == "getValuesAsArray") {
+      std::vector<double> rows;
+      for (std::size_t i = 0; i < table()->x.size(); ++i) rows.insert(rows.end(), {table()->x[i], table()->y[i]});
+      return interpreter::make_value({std::move(rows), {table()->x.size(), 2}, interpreter::NumberType::real});
     }
     if (name == "size") return Value(static_cast<std::int64_t>(table()->x.size()));
     if (name == "Valeurs") return points_of(*table());

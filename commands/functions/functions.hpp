@@ -20,8 +20,8 @@ struct FunctionConcept : interpreter::ConceptData, interpreter::RealFunction {
   /// With numbers; an error of the solver becomes one of the language.
   interpreter::Value call(const std::vector<interpreter::Value>& arguments) const override;
   /// Of a table: Absc() and Ordo(), its abscissas and values as lists, and Valeurs(), both (U1.03.02); getValues():
-  /// both in one list, abscissas first; size(): how many; Parametres(): NOM_PARA, NOM_RESU, INTERPOL, PROL_DROITE and
-  /// PROL_GAUCHE, as DEFI_FONCTION takes them.
+  /// both in one list, abscissas first; getValuesAsArray(): a row a point; size(): how many; Parametres(): NOM_PARA,
+  /// NOM_RESU, INTERPOL, PROL_DROITE and PROL_GAUCHE, as DEFI_FONCTION takes them.
   interpreter::Value method(std::string_view name, const std::vector<interpreter::Value>& arguments,
                             const std::map<std::string, interpreter::Value>& keywords) const override;
   std::vector<std::string> method_names() const override;

@@ -44,12 +44,12 @@ Value described_groups(const Groups& groups, const Further& further) {
 }
 
 /// The members of the groups named, each once, or all of `count` without names.
-Value members_of_groups(const std::vector<std::string>& groups, int count,
-                        const std::vector<int>& (Mesh::*group)(std::string_view) const, const Mesh& mesh) {
+std::vector<int> members_of_groups(const std::vector<std::string>& groups, int count,
+                                   const std::vector<int>& (Mesh::*group)(std::string_view) const, const Mesh& mesh) {
   OrderedSet chosen(count);
   if (groups.empty()) chosen.add_all(std::views::iota(0, count));
   for (const std::string& name : groups) chosen.add_all((mesh.*group)(name));
-  return index_list(chosen.take());
+  return chosen.take();
 }
 
 /// The places of the nodes: getValues() as one list, toNumpy() with a row a node.
@@ -124,12 +124,14 @@ const std::map<std::string, MeshMethod, std::less<>>& mesh_methods() {
       {"getNodes",
        {{"group_name"},
         [](const Mesh& mesh, const Arguments& given) {
-          return members_of_groups(given.texts("group_name"), mesh.node_count(), &Mesh::node_group, mesh);
+          return index_list(members_of_groups(given.texts("group_name"), mesh.node_count(), &Mesh::node_group, mesh));
         }}},
       {"getCells",
        {{"group_name"},
         [](const Mesh& mesh, const Arguments& given) {
-          return members_of_groups(given.texts("group_name"), mesh.cell_count(), &Mesh::cell_group, mesh);
+          auto cells = members_of_groups(given.texts("group_name"), mesh.cell_count(), &Mesh::cell_group, mesh);
+          std::ranges::sort(cells);  // nodes come in the order of their group (Code_Aster 17.3)
+          return index_list(cells);
         }}},
       {"getNumberOfNodes", {{}, [](const Mesh& mesh, const Arguments&) { return Value(mesh.node_count()); }}},
       {"getNumberOfCells", {{}, [](const Mesh& mesh, const Arguments&) { return Value(mesh.cell_count()); }}},

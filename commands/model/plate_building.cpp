@@ -51,7 +51,6 @@ void add_plate_sections(const Keywords& assignment, const solver::Model& model, 
                         solver::PlateSections& named) {
   solver::PlateSection section;
   section.direction = direction_of(assignment);
-  section.shear_factor = assignment.real("A_CIS");
   section.drilling = assignment.real("COEF_RIGI_DRZ");
   section.layers = static_cast<int>(assignment.integer("COQUE_NCOU"));
   for (const char* keyword : {"EPAIS_FO", "EXCENTREMENT_FO"}) require_place_alone(assignment, keyword);

@@ -27,11 +27,17 @@ TabulatedFunction shape_of(const TabulatedFunction& function) {
   return shape;
 }
 
-/// At each abscissa, the common ones unless others are given, `join` of the functions' values.
+TabulatedFunction without_extensions(TabulatedFunction function) {
+  function.left = Extension::excluded;
+  function.right = Extension::excluded;
+  return function;
+}
+
+/// At each of the common abscissas `join` of the functions' values.
 template <class Join>
-TabulatedFunction joined(Functions functions, Join join, std::vector<double> abscissas = {}) {
+TabulatedFunction joined(Functions functions, Join join) {
   TabulatedFunction result = shape_of(*functions.front());
-  result.x = abscissas.empty() ? common_abscissas(functions) : std::move(abscissas);
+  result.x = common_abscissas(functions);
   std::vector<double> values(functions.size());
   for (const double x : result.x) {
     std::ranges::transform(functions, values.begin(),
@@ -62,19 +68,18 @@ std::vector<double> common_abscissas(Functions functions) {
   return all;
 }
 
-TabulatedFunction combination(Functions functions, std::span<const double> coefficients,
-                              std::vector<double> abscissas) {
+TabulatedFunction combination(Functions functions, std::span<const double> coefficients) {
   const auto sum = [&](const std::vector<double>& values) {
     return std::inner_product(values.begin(), values.end(), coefficients.begin(), 0.0);
   };
-  return joined(functions, sum, std::move(abscissas));
+  return joined(functions, sum);
 }
 
-TabulatedFunction product(Functions functions, std::vector<double> abscissas) {
+TabulatedFunction product(Functions functions) {
   const auto multiply = [](const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 1.0, std::multiplies<>());
   };
-  return joined(functions, multiply, std::move(abscissas));
+  return joined(functions, multiply);
 }
 
 TabulatedFunction mean(Functions functions) {
@@ -100,6 +105,13 @@ TabulatedFunction lower_envelope(Functions functions) {
   return joined(functions, [](const std::vector<double>& values) { return std::ranges::min(values); });
 }
 
+TabulatedFunction resampled(const TabulatedFunction& function, std::vector<double> abscissas) {
+  TabulatedFunction result = shape_of(function);
+  result.x = std::move(abscissas);
+  std::ranges::transform(result.x, std::back_inserter(result.y), std::cref(function));
+  return result;
+}
+
 TabulatedFunction mapped(const TabulatedFunction& function, const std::function<double(double)>& ordinate) {
   TabulatedFunction result = function;
   std::ranges::transform(result.y, result.y.begin(), ordinate);
@@ -107,8 +119,11 @@ TabulatedFunction mapped(const TabulatedFunction& function, const std::function<
 }
 
 TabulatedFunction in_succession(const TabulatedFunction& first, const TabulatedFunction& second, Overlap counts) {
+  const bool as_written = first.x.front() < second.x.front();
+  const TabulatedFunction& left = as_written ? first : second;
+  const TabulatedFunction& right = as_written ? second : first;
   TabulatedFunction result = shape_of(first);
-  result.right = second.right;
+  result.left = left.left;
   const auto take = [&result](const TabulatedFunction& from, auto counts_at) {
     for (std::size_t i = 0; i < from.x.size(); ++i) {
       if (!counts_at(from.x[i])) continue;
@@ -116,9 +131,11 @@ TabulatedFunction in_succession(const TabulatedFunction& first, const TabulatedF
       result.y.push_back(from.y[i]);
     }
   };
-  const bool by_first = counts == Overlap::first;
-  take(first, [&](double x) { return by_first || (x < second.x.front() && !is_same(x, second.x.front())); });
-  take(second, [&](double x) { return !by_first || (x > first.x.back() && !is_same(x, first.x.back())); });
+  const bool by_left = counts == Overlap::left;
+  take(left, [&](double x) { return by_left || (x < right.x.front() && !is_same(x, right.x.front())); });
+  const std::size_t before = result.x.size();
+  take(right, [&](double x) { return !by_left || (x > left.x.back() && !is_same(x, left.x.back())); });
+  result.right = result.x.size() > before ? right.right : left.right;
   return result;
 }
 
@@ -141,7 +158,7 @@ TabulatedFunction polynomial_fit(const TabulatedFunction& function, int degree) 
 }
 
 TabulatedFunction integral(const TabulatedFunction& function, double at_first) {
-  TabulatedFunction result = function;
+  TabulatedFunction result = without_extensions(function);
   result.y.front() = at_first;
   for (std::size_t i = 1; i < function.x.size(); ++i) {
     result.y[i] = result.y[i - 1] + 0.5 * (function.y[i - 1] + function.y[i]) * (function.x[i] - function.x[i - 1]);
@@ -178,7 +195,7 @@ double mean_between(const TabulatedFunction& function, double from, double to) {
 TabulatedFunction derivative(const TabulatedFunction& function) {
   const std::size_t last = function.x.size() - 1;
   if (last == 0) throw Error("out-of-function", "a function of one point has no derivative");
-  TabulatedFunction result = function;
+  TabulatedFunction result = without_extensions(function);
   for (std::size_t i = 0; i <= last; ++i) {
     const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, last);
     result.y[i] = (function.y[after] - function.y[before]) / (function.x[after] - function.x[before]);
@@ -195,6 +212,8 @@ TabulatedFunction inverse(const TabulatedFunction& function) {
                             function.result, function.parameter));
   }
   TabulatedFunction result = function;
+  for (Extension* end : {&result.left, &result.right})
+    if (*end == Extension::constant) *end = Extension::excluded;
   std::swap(result.x, result.y);
   std::swap(result.x_scale, result.y_scale);
   if (falls && !rises) {

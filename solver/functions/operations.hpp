@@ -20,10 +20,9 @@ using Functions = std::span<const TabulatedFunction* const>;
 /// The abscissas of all the functions within the range of each, rising; those that differ by rounding only are one.
 std::vector<double> common_abscissas(Functions functions);
 
-/// sum of coefficients[i] * functions[i], at `abscissas` (rising) in place of the common ones unless there are none.
-TabulatedFunction combination(Functions functions, std::span<const double> coefficients,
-                              std::vector<double> abscissas = {});
-TabulatedFunction product(Functions functions, std::vector<double> abscissas = {});
+/// sum of coefficients[i] * functions[i]
+TabulatedFunction combination(Functions functions, std::span<const double> coefficients);
+TabulatedFunction product(Functions functions);
 TabulatedFunction mean(Functions functions);
 /// At each abscissa the value below which that share (0 to 1) of the functions lies, linear between those in order: 0.5
 /// is the median.
@@ -32,18 +31,22 @@ TabulatedFunction fractile(Functions functions, double share);
 TabulatedFunction upper_envelope(Functions functions);
 TabulatedFunction lower_envelope(Functions functions);
 
+/// The function at other abscissas (rising). Throws Error `out-of-function` where it does not go that far.
+TabulatedFunction resampled(const TabulatedFunction& function, std::vector<double> abscissas);
 /// The function with another ordinate at each of its points.
 TabulatedFunction mapped(const TabulatedFunction& function, const std::function<double(double)>& ordinate);
 
-/// What overlap of two functions one after the other counts.
-enum class Overlap : std::uint8_t { first, second };
-/// The points of one function, then those of another, and the ends of both.
+/// Which of two functions counts where both are.
+enum class Overlap : std::uint8_t { left, right };
+/// The points of one function and beyond them those of another, with the extensions at their ends. The one that begins
+/// first is the left one, `second` where both begin alike (17.3). Scales and names are those of `first`.
 TabulatedFunction in_succession(const TabulatedFunction& first, const TabulatedFunction& second, Overlap counts);
 /// The polynomial of least squares through the points, at their abscissas. Throws Error `out-of-function` where they
 /// are no more than the degree.
 TabulatedFunction polynomial_fit(const TabulatedFunction& function, int degree);
 
-/// By the trapezoidal rule from the first abscissa, where it is `at_first`.
+/// By the trapezoidal rule from the first abscissa, where it is `at_first`. Integrals and derivatives do not go on
+/// beyond the points (17.3).
 TabulatedFunction integral(const TabulatedFunction& function, double at_first);
 /// By Simpson's rule, over the parabola through each point and the two before it; up to the second point by the
 /// trapezoidal rule, so that every other value counts from there.
@@ -53,8 +56,8 @@ double mean_between(const TabulatedFunction& function, double from, double to);
 /// The slope between the points before and after (17.3), at the ends of the one side. Throws Error `out-of-function`
 /// for a single point.
 TabulatedFunction derivative(const TabulatedFunction& function);
-/// x(y), with scales and ends exchanged; the names of parameter and result stay (so has it Code_Aster 17.3). Throws
-/// Error `out-of-function` when the ordinates neither rise nor fall strictly.
+/// x(y), with scales and ends exchanged, excluded where they were constant; the name of the parameter stays (17.3).
+/// Throws Error `out-of-function` when the ordinates neither rise nor fall strictly.
 TabulatedFunction inverse(const TabulatedFunction& function);
 /// outer(inner(x)) at the abscissas of the inner function, whose shape it takes.
 TabulatedFunction composition(const TabulatedFunction& outer, const TabulatedFunction& inner);

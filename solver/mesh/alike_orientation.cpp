@@ -161,7 +161,7 @@ class Sheet {
 
 int orient(Mesh& mesh, std::span<const int> cells, Measure measure, const std::optional<OrientationSeed>& seed) {
   const std::vector<int> wrong = Sheet(mesh, cells, measure).to_turn(seed);
-  for (const int cell : wrong) turn_cell(mesh, cell);
+  for (const int cell : wrong) turn_sheet_cell(mesh, cell);
   return static_cast<int>(wrong.size());
 }
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
+#include <set>
 
 #include "solver/error.hpp"
 #include "solver/mesh/new_names.hpp"
@@ -88,7 +90,7 @@ using Triangle = std::array<std::size_t, 3>;
 std::span<const Triangle> triangles_in(CellType type) {
   static constexpr std::array<Triangle, 2> of_quad4 = {{{0, 1, 2}, {0, 2, 3}}};
   static constexpr std::array<Triangle, 6> of_quad8 = {
-      {{0, 4, 7}, {4, 1, 5}, {5, 2, 6}, {6, 3, 7}, {4, 5, 6}, {4, 6, 7}}};
+      {{0, 4, 7}, {4, 1, 5}, {5, 2, 6}, {6, 3, 7}, {4, 6, 7}, {4, 5, 6}}};
   static constexpr std::array<Triangle, 8> of_quad9 = {
       {{0, 4, 8}, {4, 1, 8}, {1, 5, 8}, {5, 2, 8}, {2, 6, 8}, {6, 3, 8}, {3, 7, 8}, {7, 0, 8}}};
   switch (type) {
@@ -103,49 +105,31 @@ std::span<const Triangle> triangles_in(CellType type) {
   }
 }
 
-/// Nodes between others, made once for all cells that share them.
-class MiddleNodes {
- public:
-  explicit MiddleNodes(Mesh& mesh) : mesh_(mesh), names_(mesh.node_names, "NS") {}
-
-  /// The node with a position, known by the corners that it lies between.
-  int between(std::vector<int> corners, const Eigen::Vector3d& position) {
-    std::ranges::sort(corners);
-    const auto [found, is_new] = known_.try_emplace(std::move(corners), mesh_.node_count());
-    if (is_new) {
-      mesh_.nodes.push_back({position[0], position[1], position[2]});
-      names_.add();
-    }
-    return found->second;
-  }
-
- private:
-  Mesh& mesh_;
-  NewNames names_;
-  std::map<std::vector<int>, int> known_;
+/// A node between others, known by the corners that it lies between, in rising order.
+struct MiddleNode {
+  std::vector<int> corners;
+  Eigen::Vector3d place;
 };
 
-/// Adds the nodes that the larger type of a cell has and the smaller one lacks.
+/// The nodes that the larger type of a cell has and the smaller one lacks.
 class QuadraticExtension {
  public:
-  QuadraticExtension(const Mesh& mesh, MiddleNodes& middles, int cell, CellType to)
-      : mesh_(mesh),
-        middles_(middles),
-        from_(mesh.cell_types[cell]),
-        to_(to),
-        nodes_(mesh.cell(cell).begin(), mesh.cell(cell).end()) {}
+  QuadraticExtension(const Mesh& mesh, int cell, CellType to)
+      : mesh_(mesh), from_(mesh.cell_types[cell]), to_(to), nodes_(mesh.cell(cell)) {}
 
-  std::vector<int> extend() {
+  std::vector<MiddleNode> middles() const {
+    std::vector<MiddleNode> result;
     const bool has_edges = node_count(from_) > corner_count(from_);
     if (!has_edges) {
-      for (const auto& edge : middle_edges(to_)) nodes_.push_back(middles_.between(corners(edge), mean(edge)));
-      return nodes_;
+      for (const auto& edge : middle_edges(to_)) result.push_back({corners(edge), mean(edge)});
+      return result;
     }
-    for (const auto& face : middle_faces(to_)) nodes_.push_back(middles_.between(corners(face), face_centre(face)));
+    for (const auto& face : middle_faces(to_)) result.push_back({corners(face), face_centre(face)});
     static constexpr std::array<int, 3> triangle = {0, 1, 2};
-    if (to_ == tria7) nodes_.push_back(middles_.between(corners(triangle), face_centre(triangle)));
-    if (to_ == hexa27) nodes_.push_back(middles_.between({nodes_.begin(), nodes_.begin() + 8}, solid_centre()));
-    return nodes_;
+    static constexpr std::array<int, 8> solid = {0, 1, 2, 3, 4, 5, 6, 7};
+    if (to_ == tria7) result.push_back({corners(triangle), face_centre(triangle)});
+    if (to_ == hexa27) result.push_back({corners(solid), solid_centre()});
+    return result;
   }
 
  private:
@@ -156,6 +140,7 @@ class QuadraticExtension {
   std::vector<int> corners(std::span<const int> local) const {
     std::vector<int> result;
     for (const int i : local) result.push_back(nodes_[static_cast<std::size_t>(i)]);
+    std::ranges::sort(result);
     return result;
   }
 
@@ -187,11 +172,45 @@ class QuadraticExtension {
   }
 
   const Mesh& mesh_;
-  MiddleNodes& middles_;
   CellType from_;
   CellType to_;
-  std::vector<int> nodes_;
+  std::span<const int> nodes_;
 };
+
+/// Nodes between others, made once for all cells that share them.
+class MiddleNodes {
+ public:
+  explicit MiddleNodes(Mesh& mesh) : mesh_(mesh), names_(mesh.node_names, "NS") {}
+
+  void want(const std::vector<MiddleNode>& middles) {
+    for (const MiddleNode& middle : middles) known_.emplace(middle.corners, -1);
+  }
+
+  /// Makes those that are wanted and not made yet.
+  void make(const std::vector<MiddleNode>& middles) {
+    for (const MiddleNode& middle : middles) {
+      const auto found = known_.find(middle.corners);
+      if (found == known_.end() || found->second >= 0) continue;
+      found->second = mesh_.node_count();
+      mesh_.nodes.push_back({middle.place[0], middle.place[1], middle.place[2]});
+      names_.add();
+    }
+  }
+
+  int at(const MiddleNode& middle) const { return known_.at(middle.corners); }
+
+ private:
+  Mesh& mesh_;
+  NewNames names_;
+  std::map<std::vector<int>, int> known_;
+};
+
+std::vector<std::vector<int>> nodes_of_cells(const Mesh& mesh) {
+  std::vector<std::vector<int>> nodes;
+  for (int cell = 0; cell < mesh.cell_count(); ++cell)
+    nodes.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
+  return nodes;
+}
 
 /// Puts cells of other types, on other nodes, in the place of those of a mesh.
 void replace_cells(Mesh& mesh, const std::vector<CellType>& types, const std::vector<std::vector<int>>& nodes) {
@@ -244,14 +263,54 @@ void drop_loose_nodes(Mesh& mesh, const std::vector<bool>& candidates) {
   renumber(mesh.node_groups, new_index);
 }
 
+/// Names for the pieces of the cells of another mesh: the first has that of the whole, the others have new ones.
+void name_pieces(Mesh& mesh, const Mesh& whole, const std::vector<std::vector<int>>& pieces) {
+  if (whole.cell_names.empty()) return;
+  NewNames names(mesh.cell_names, "M");
+  std::vector<std::string> all;
+  for (std::size_t cell = 0; cell < pieces.size(); ++cell) {
+    all.push_back(whole.cell_names[cell]);
+    for (std::size_t i = 1; i < pieces[cell].size(); ++i) {
+      names.add();
+      all.push_back(mesh.cell_names.back());
+    }
+  }
+  mesh.cell_names = std::move(all);
+}
+
+/// Numbers nodes in the order in which cells meet them, those that no cell has last.
+void renumber_nodes(Mesh& mesh) {
+  std::vector<int> order;
+  std::vector<int> new_index(mesh.nodes.size(), -1);
+  const auto meet = [&](int node) {
+    if (new_index[static_cast<std::size_t>(node)] >= 0) return;
+    new_index[static_cast<std::size_t>(node)] = static_cast<int>(order.size());
+    order.push_back(node);
+  };
+  for (const int node : mesh.connectivity) meet(node);
+  for (int node = 0; node < mesh.node_count(); ++node) meet(node);
+  std::vector<Point> nodes;
+  std::vector<std::string> names;
+  for (const int node : order) {
+    nodes.push_back(mesh.nodes[static_cast<std::size_t>(node)]);
+    names.push_back(mesh.node_name(node));
+  }
+  mesh.nodes = std::move(nodes);
+  mesh.node_names = std::move(names);
+  for (int& node : mesh.connectivity) node = new_index[static_cast<std::size_t>(node)];
+  renumber(mesh.node_groups, new_index);
+}
+
 void add_group(Mesh& mesh, const std::string& name, std::vector<int> cells) {
   if (mesh.cell_groups.try_emplace(name, std::move(cells)).second) return;
   throw Error("group-exists", fmt::format("the mesh has a cell group {} already", name), "choose another name");
 }
 
-/// Lines before faces before solids: the order in which Code_Aster numbers the nodes that cells get.
-std::vector<int> by_dimension(const Mesh& mesh, std::span<const int> cells) {
-  std::vector<int> result(cells.begin(), cells.end());
+/// Lines before faces before solids: the order in which Code_Aster numbers the nodes that cells get, of all cells of
+/// the mesh, the ones that stay as they are too.
+std::vector<int> by_dimension(const Mesh& mesh) {
+  std::vector<int> result(static_cast<std::size_t>(mesh.cell_count()));
+  std::iota(result.begin(), result.end(), 0);
   std::ranges::stable_sort(result, {}, [&](int cell) { return dimension(mesh.cell_types[cell]); });
   return result;
 }
@@ -260,22 +319,25 @@ std::vector<int> by_dimension(const Mesh& mesh, std::span<const int> cells) {
 
 Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversion) {
   Mesh result = mesh;
-  MiddleNodes middles(result);
+  MiddleNodes made(result);
   std::vector<CellType> types = mesh.cell_types;
-  std::vector<std::vector<int>> nodes;
-  for (int cell = 0; cell < mesh.cell_count(); ++cell)
-    nodes.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
-  std::vector<bool> left(mesh.nodes.size(), false);
-  for (const int cell : by_dimension(mesh, cells)) {
+  const auto middles = [&](int cell) {
     const CellType to = target_of(mesh.cell_types[cell], conversion);
-    if (to == mesh.cell_types[cell]) continue;
-    types[cell] = to;
-    if (node_count(to) > node_count(mesh.cell_types[cell])) {
-      nodes[cell] = QuadraticExtension(mesh, middles, cell, to).extend();
-    } else {
-      for (const int node : nodes[cell]) left[static_cast<std::size_t>(node)] = true;
-      nodes[cell].resize(static_cast<std::size_t>(node_count(to)));
-    }
+    if (node_count(to) <= node_count(mesh.cell_types[cell])) return std::vector<MiddleNode>();
+    return QuadraticExtension(mesh, cell, to).middles();
+  };
+  for (const int cell : cells) {
+    types[cell] = target_of(mesh.cell_types[cell], conversion);
+    made.want(middles(cell));
+  }
+  for (const int cell : by_dimension(mesh)) made.make(middles(cell));
+  std::vector<std::vector<int>> nodes = nodes_of_cells(mesh);
+  std::vector<bool> left(mesh.nodes.size(), false);
+  for (const int cell : cells) {
+    for (const MiddleNode& middle : middles(cell)) nodes[cell].push_back(made.at(middle));
+    if (node_count(types[cell]) >= node_count(mesh.cell_types[cell])) continue;
+    for (const int node : nodes[cell]) left[static_cast<std::size_t>(node)] = true;
+    nodes[cell].resize(static_cast<std::size_t>(node_count(types[cell])));
   }
   replace_cells(result, types, nodes);
   left.resize(result.nodes.size(), false);
@@ -285,34 +347,30 @@ Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversi
 
 Mesh with_triangles(const Mesh& mesh, std::span<const int> cells) {
   Mesh result = mesh;
-  std::vector<CellType> types = mesh.cell_types;
+  const std::set<int> chosen(cells.begin(), cells.end());
+  std::vector<CellType> types;
   std::vector<std::vector<int>> nodes;
-  for (int cell = 0; cell < mesh.cell_count(); ++cell)
-    nodes.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
-  NewNames names(result.cell_names, "M");
-  std::map<int, std::vector<int>> others;  // the other triangles of a quadrangle
-  for (const int cell : cells) {
-    const auto pieces = triangles_in(mesh.cell_types[cell]);
-    if (pieces.empty()) continue;
-    const std::vector<int> whole = nodes[cell];
-    const auto piece = [&](std::size_t i) {
-      return std::vector{whole[pieces[i][0]], whole[pieces[i][1]], whole[pieces[i][2]]};
+  std::vector<std::vector<int>> pieces(static_cast<std::size_t>(mesh.cell_count()));  // of each cell
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    const auto whole = mesh.cell(cell);
+    const auto triangles = chosen.contains(cell) ? triangles_in(mesh.cell_types[cell]) : std::span<const Triangle>();
+    const auto add = [&](CellType type, std::vector<int> own) {
+      pieces[static_cast<std::size_t>(cell)].push_back(static_cast<int>(types.size()));
+      types.push_back(type);
+      nodes.push_back(std::move(own));
     };
-    nodes[cell] = piece(0);
-    types[cell] = tria3;
-    for (std::size_t i = 1; i < pieces.size(); ++i) {
-      others[cell].push_back(static_cast<int>(types.size()));
-      nodes.push_back(piece(i));
-      types.push_back(tria3);
-      names.add();
-    }
+    for (const Triangle& t : triangles) add(tria3, {whole[t[0]], whole[t[1]], whole[t[2]]});
+    if (triangles.empty()) add(mesh.cell_types[cell], {whole.begin(), whole.end()});
   }
   replace_cells(result, types, nodes);
+  name_pieces(result, mesh, pieces);
   for (auto& [name, members] : result.cell_groups) {
-    const std::vector<int> before = members;
-    for (const int member : before)
-      if (const auto other = others.find(member); other != others.end())
-        members.insert(members.end(), other->second.begin(), other->second.end());
+    std::vector<int> all;
+    for (const int member : members) {
+      const auto& own = pieces[static_cast<std::size_t>(member)];
+      all.insert(all.end(), own.begin(), own.end());
+    }
+    members = std::move(all);
   }
   return result;
 }
@@ -331,7 +389,9 @@ void double_cells(Mesh& mesh, std::span<const int> cells, const std::string& gro
 void add_points(Mesh& mesh, std::span<const int> nodes, const std::string& group) {
   NewNames names(mesh.cell_names, "P");
   std::vector<int> made;
-  for (const int node : nodes) {
+  std::vector<int> rising(nodes.begin(), nodes.end());
+  std::ranges::sort(rising);
+  for (const int node : rising) {
     made.push_back(mesh.add_cell(poi1, std::array{node}));
     names.add();
   }
@@ -344,7 +404,9 @@ Mesh restricted(const Mesh& mesh, std::span<const int> cells) {
   std::vector<CellType> types;
   std::vector<std::vector<int>> nodes;
   std::vector<std::string> names;
-  for (const int cell : cells) {
+  std::vector<int> rising(cells.begin(), cells.end());
+  std::ranges::sort(rising);
+  for (const int cell : rising) {
     new_index[static_cast<std::size_t>(cell)] = static_cast<int>(types.size());
     types.push_back(mesh.cell_types[cell]);
     nodes.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
@@ -355,6 +417,7 @@ Mesh restricted(const Mesh& mesh, std::span<const int> cells) {
   renumber(result.cell_groups, new_index);
   renumber_patches(result, new_index);
   drop_loose_nodes(result, std::vector<bool>(mesh.nodes.size(), true));
+  renumber_nodes(result);
   return result;
 }
 

@@ -23,22 +23,23 @@ enum class Conversion {
 /// nodes. New nodes are shared by the cells that share an edge or a face: mid-edge nodes halve the edge, middles of
 /// faces and solids lie where the serendipity shape functions of the cell put them, so that its geometry stays. They
 /// are numbered as Code_Aster does: those of lines first, then of faces, then of solids, each in the order of the
-/// cells.
+/// cells, whether these are converted or only share the node.
 Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversion);
 
-/// Cuts quadrangles into TRIA3 that stand in their groups: QUAD4 along the diagonal from the first node to the third;
-/// QUAD8 into four at the corners and two between the mid-edge nodes, along the diagonal from the fifth to the seventh;
-/// QUAD9 into eight around its middle.
+/// Cuts quadrangles into TRIA3 that stand in their places and groups: QUAD4 along the diagonal from the first node to
+/// the third; QUAD8 into four at the corners and two between the mid-edge nodes, along the diagonal from the fifth to
+/// the seventh; QUAD9 into eight around its middle.
 Mesh with_triangles(const Mesh& mesh, std::span<const int> cells);
 
 /// Doubles cells, on the same nodes, into a new cell group. Throws Error `group-exists`.
 void double_cells(Mesh& mesh, std::span<const int> cells, const std::string& group);
 
-/// Makes a point cell at each of the nodes; into a new cell group unless its name is empty. Throws Error
-/// `group-exists`.
+/// Makes a point cell at each of the nodes, in the order of their numbers; into a new cell group unless its name is
+/// empty. Throws Error `group-exists`.
 void add_points(Mesh& mesh, std::span<const int> nodes, const std::string& group);
 
-/// The cells alone, and their nodes, under their names. All groups stay as far as their members do; empty ones go.
+/// The cells alone, in the order of the mesh, and their nodes, in the order in which these cells meet them, under their
+/// names. All groups stay as far as their members do; empty ones go.
 Mesh restricted(const Mesh& mesh, std::span<const int> cells);
 
 }  // namespace comma::solver

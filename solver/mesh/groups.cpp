@@ -123,7 +123,7 @@ std::vector<int> cells_on_nodes(const Mesh& mesh, std::span<const int> nodes, No
     const auto hits = std::ranges::count_if(own, [&](int node) { return chosen[static_cast<std::size_t>(node)]; });
     const auto size = static_cast<std::ptrdiff_t>(own.size());
     const bool wanted = criterion == NodeCriterion::any        ? hits > 0
-                        : criterion == NodeCriterion::majority ? 2 * hits > size
+                        : criterion == NodeCriterion::majority ? 2 * hits >= size
                                                                : hits == size;
     if (wanted) result.push_back(cell);
   }

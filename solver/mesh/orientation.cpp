@@ -54,6 +54,12 @@ bool same_sense(std::span<const int> nodes, std::span<const int> facet_nodes, in
   return facet_nodes[static_cast<std::size_t>(next)] == nodes[1];
 }
 
+std::span<int> nodes_of(Mesh& mesh, int cell) {
+  return std::span(mesh.connectivity)
+      .subspan(static_cast<std::size_t>(mesh.cell_starts[cell]),
+               static_cast<std::size_t>(node_count(mesh.cell_types[cell])));
+}
+
 /// Turns a line or face cell round. The corners of a face are taken in the opposite order, the last one first, as
 /// Code_Aster does: the reference cell of a triangle is not alike in all corners, and contact brings points that fall
 /// beside a face back within it; the first edge gives principal directions in a skin their signs
@@ -127,11 +133,15 @@ bool points_inwards(const Mesh& mesh, int cell, const CellFacet& behind) {
 
 }  // namespace
 
-void turn_cell(Mesh& mesh, int cell) {
+void turn_skin_cell(Mesh& mesh, int cell) { reverse(nodes_of(mesh, cell), mesh.cell_types[cell]); }
+
+void turn_sheet_cell(Mesh& mesh, int cell) {
   const CellType type = mesh.cell_types[cell];
-  reverse(std::span(mesh.connectivity)
-              .subspan(static_cast<std::size_t>(mesh.cell_starts[cell]), static_cast<std::size_t>(node_count(type))),
-          type);
+  const auto nodes = nodes_of(mesh, cell);
+  if (dimension(type) == 1) return reverse(nodes, type);
+  const int corners = corner_count(type);
+  std::reverse(nodes.begin() + 1, nodes.begin() + corners);
+  if (node_count(type) >= 2 * corners) std::reverse(nodes.begin() + corners, nodes.begin() + 2 * corners);
 }
 
 namespace {
@@ -153,7 +163,7 @@ int orient_skin(Mesh& mesh, std::span<const int> skin, std::span<const int> supp
   int turned = 0;
   for (const int cell : skin) {
     if (!points_inwards(mesh, cell, support_of(mesh, cell, facets))) continue;
-    turn_cell(mesh, cell);
+    turn_skin_cell(mesh, cell);
     ++turned;
   }
   return turned;

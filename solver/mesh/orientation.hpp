@@ -10,8 +10,10 @@
 
 namespace comma::solver {
 
-/// Turns a line or face round; its first node stays first on a face.
-void turn_cell(Mesh& mesh, int cell);
+/// Turns a line or face round, as Code_Aster does it: of a face of a skin (ORIE_PEAU) the last corner becomes the first
+/// one, of a sheet (ORIE_NORM_COQUE) the first one stays.
+void turn_skin_cell(Mesh& mesh, int cell);
+void turn_sheet_cell(Mesh& mesh, int cell);
 
 /// Turns each of the skin cells so that its normal points out of the volume (or plane) cell behind it. `support` limits
 /// the search to those cells; empty: all cells of one dimension more. Returns how many were turned. Throws Error

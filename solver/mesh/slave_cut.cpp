@@ -153,7 +153,7 @@ class SlaveCutter {
     std::vector<Cell> body_pieces;
     if (around_inner) {
       prepare_inner(face, body);
-      body_pieces = by_hexahedra ? hexahedra(body, cell(face)) : quadrangles_behind(body, key);
+      body_pieces = by_hexahedra ? hexahedra(body, key) : quadrangles_behind(body, key);
     } else {
       prepare_centre(cell(face));
       add_middles_behind(cell(face), cell(body));
@@ -264,10 +264,25 @@ class SlaveCutter {
                               name_of(cell(body).type), source_.cell_name(face)),
                   "write DECOUPE_HEXA='PYRA'");
     inner_.clear();
-    Vector3d centre = Vector3d::Zero();
-    for (const int node : cell(face).nodes) centre += place(node) / static_cast<double>(cell(face).nodes.size());
-    for (const int node : cell(face).nodes)
-      inner_.emplace(node, add_node(centre + inner_share * (place(node) - centre)));
+    deep_.clear();
+    const Cell skin = cell(face);
+    const Cell whole = cell(body);
+    std::vector<int> base;
+    for (const int corner : corners_of(skin)) base.push_back(below(whole, skin, corner));
+    const std::vector<Vector3d> shallow = inner_places(whole, corners_of(skin));
+    const std::vector<Vector3d> beneath = inner_places(whole, base);
+    for (std::size_t i = 0; i < base.size(); ++i) inner_.emplace(skin.nodes[i], add_node(place_in(whole, shallow[i])));
+    for (std::size_t i = 0; i < base.size(); ++i)
+      deep_.emplace(skin.nodes[i],
+                    add_node(place_in(whole, (1 - inner_depth) * shallow[i] + inner_depth * beneath[i])));
+  }
+
+  /// In the reference cell of a body: the corners of a facet, drawn towards its centre.
+  static std::vector<Vector3d> inner_places(const Cell& body, std::span<const int> facet) {
+    const Vector3d centre = reference_centre(body, facet);
+    std::vector<Vector3d> places;
+    for (const int corner : facet) places.push_back(centre + inner_share * (reference_place(body, corner) - centre));
+    return places;
   }
 
   std::vector<Cell> pieces_around_inner(const Cell& face) const {
@@ -282,44 +297,30 @@ class SlaveCutter {
     return pieces;
   }
 
-  /// The inner node below one on the face, towards a corner of the body's base about its centre.
-  int add_deep(int shallow, int base, const Vector3d& base_centre) {
-    const Vector3d beneath = base_centre + inner_share * (place(base) - base_centre);
-    return add_node((1 - inner_depth) * place(shallow) + inner_depth * beneath);
-  }
-
   /// Four: one below the middle third of the face, half as deep as the body, and one between it and each of the body's
   /// other sides.
   std::vector<Cell> quadrangles_behind(int body, const FacetKey& key) {
     std::vector<int> corner = cell(body).nodes;  // the first two on the face
     while (key_of(std::span(corner).first(2)) != key) std::ranges::rotate(corner, corner.begin() + 1);
     const std::array<int, 2> shallow = {inner_.at(corner[0]), inner_.at(corner[1])};
-    const Vector3d base_centre = (place(corner[2]) + place(corner[3])) / 2;
-    std::array<int, 2> deep{};
-    for (std::size_t i = 0; i < 2; ++i) deep[i] = add_deep(shallow[i], corner[3 - i], base_centre);
+    const std::array<int, 2> deep = {deep_.at(corner[0]), deep_.at(corner[1])};
     return {{quad4, {shallow[0], shallow[1], deep[1], deep[0]}},
             {quad4, {corner[0], shallow[0], deep[0], corner[3]}},
             {quad4, {shallow[1], corner[1], corner[2], deep[1]}},
             {quad4, {deep[0], deep[1], corner[2], corner[3]}}};
   }
 
-  /// One hexahedron under the inner square, one between it and each of the other facets. New nodes in the order of the
-  /// skin's corners (Code_Aster 17.3).
-  std::vector<Cell> hexahedra(int body, const Cell& skin) {
+  /// One hexahedron under the inner square, one between it and each of the other facets.
+  std::vector<Cell> hexahedra(int body, const FacetKey& key) {
     Cell face;
     for (const Cell& facet : facets_of(cell(body)))
-      if (key_of(corners_of(facet)) == key_of(corners_of(skin))) face = facet;
+      if (key_of(corners_of(facet)) == key) face = facet;
     std::array<int, 4> top{}, base{}, shallow{}, deep{};  // corners of the face, those below them, and the inner ones
-    Vector3d base_centre = Vector3d::Zero();
     for (std::size_t i = 0; i < 4; ++i) {
       top[i] = face.nodes[i];
       base[i] = below(cell(body), face, top[i]);
       shallow[i] = inner_.at(top[i]);
-      base_centre += place(base[i]) / 4;
-    }
-    for (const int corner : corners_of(skin)) {
-      const auto i = static_cast<std::size_t>(std::ranges::find(top, corner) - top.begin());
-      deep[i] = add_deep(shallow[i], base[i], base_centre);
+      deep[i] = deep_.at(top[i]);
     }
     const auto hexahedron = [](const std::array<int, 4>& low, const std::array<int, 4>& high) {
       return Cell{hexa8, {low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]}};
@@ -332,15 +333,16 @@ class SlaveCutter {
     return pieces;
   }
 
-  /// The other end of the edge that leaves a face of a hexahedron at a corner: the corner opposite to it on a facet
-  /// beside the face.
+  /// The other end of the edge that leaves a face of a hexahedron or quadrangle at a corner: the corner next to it on a
+  /// facet beside the face.
   static int below(const Cell& body, const Cell& face, int corner) {
     const auto on_face = [&](int node) { return std::ranges::find(face.nodes, node) != face.nodes.end(); };
     for (const Cell& facet : facets_of(body)) {
       const auto found = std::ranges::find(facet.nodes, corner);
       if (found == facet.nodes.end()) continue;
       const auto i = static_cast<std::size_t>(found - facet.nodes.begin());
-      for (const std::size_t beside : {(i + 1) % 4, (i + 3) % 4})
+      const auto count = static_cast<std::size_t>(corner_count(facet.type));
+      for (const std::size_t beside : {(i + 1) % count, (i + count - 1) % count})
         if (!on_face(facet.nodes[beside])) return facet.nodes[beside];
     }
     return -1;
@@ -390,7 +392,8 @@ class SlaveCutter {
   std::unordered_map<FacetKey, std::vector<int>, FacetKeyHash> bodies_;
   int centre_ = -1;
   std::map<int, int> middles_;  ///< by corner: the node between it and the centre
-  std::map<int, int> inner_;    ///< by corner: that of the inner square
+  std::map<int, int> inner_;    ///< by corner of the face: that of the inner square or third
+  std::map<int, int> deep_;     ///< the one below it, inside the body
 };
 
 }  // namespace

@@ -16,12 +16,13 @@ enum class HexaCut : std::uint8_t { pyramids, hexahedra };
 /// The mesh with a node of its own inside each of the faces (lines in the plane): the method needs a displacement
 /// inside each patch that moves no other one. A face that has such a node (SEG3, TRIA7, QUAD9) stays whole. Of another
 /// one the pieces go from the edges to the new node at its centre, and those of the body behind it from all its other
-/// facets, so that no other body changes; a line before a QUAD4 is cut into thirds, and the QUAD4 into four around one
-/// below the middle third, as HexaCut::hexahedra does in space (ssnv104m, to 1e-8). Cells on the same facet are cut
-/// alike. The first piece takes the place and name of what was cut, the others come at the end and enter its groups.
-/// Each of the faces becomes an entry of `slave_patches`. Throws Error `no-body` for a face with no body behind it,
-/// `inner-face` for one between two, `unsupported` for bodies without a cut: PENTA18, HEXA27 behind faces without a
-/// centre, quadratic ones for HexaCut::hexahedra.
+/// facets, so that no other body changes; nodes inside faces and bodies lie where the shape functions carry them. A
+/// line before a QUAD4 is cut into thirds, and the QUAD4 into four around one below the middle third, as
+/// HexaCut::hexahedra does in space (ssnv104m, to 1e-8). Cells on the same facet are cut alike. The first piece takes
+/// the place and name of what was cut, the others come at the end and enter its groups. Each of the faces becomes an
+/// entry of `slave_patches`. Throws Error `no-body` for a face with no body behind it, `inner-face` for one between
+/// two, `unsupported` for bodies without a cut: PENTA18, HEXA27 behind faces without a centre, quadratic ones for
+/// HexaCut::hexahedra.
 Mesh with_cut_slave_faces(const Mesh& mesh, std::span<const int> faces, HexaCut hexa_cut);
 
 /// The nodes inside a patch: on none of the edges (ends, of lines) that just one of its faces has. The one that

@@ -29,6 +29,11 @@ Eigen::VectorXd RowWeights::weighed(const Eigen::VectorXd& reduced_residual) con
   return reduced_.cwiseProduct(reduced_residual);
 }
 
+Eigen::VectorXd RowWeights::weighed_all(const Eigen::VectorXd& residual) const {
+  if (!all_.size()) return residual;
+  return all_.cwiseProduct(residual);
+}
+
 double RowWeights::load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal,
                              const Eigen::VectorXd& variable_forces) const {
   if (!all_.size()) return solver::load_size(loads, internal, variable_forces);

@@ -22,6 +22,8 @@ class RowWeights {
   /// Those of the assembler's instant.
   void take(const Assembler& assembler, const Elimination& elimination);
   Eigen::VectorXd weighed(const Eigen::VectorXd& reduced_residual) const;
+  /// The same of all degrees of freedom.
+  Eigen::VectorXd weighed_all(const Eigen::VectorXd& residual) const;
   /// load_size() with weights.
   double load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal,
                    const Eigen::VectorXd& variable_forces) const;

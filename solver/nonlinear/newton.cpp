@@ -26,10 +26,6 @@ using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// A correction below this share of the solution is rounding.
 constexpr double negligible_step = 4e-16;
-/// Residual that rounding leaves, as a share of |K| |u|: some tens of roundings, over elements and refinement.
-constexpr double rounding_share = 1e-14;
-/// A residual beyond this share of the applied loads has not taken them up.
-constexpr double lost_load = 1e-3;
 /// A rigid body is one up to this share of its size.
 constexpr double largest_violation = 1e-9;
 /// Corrections after convergence, at most. Each gains the digits that the factorisation has to give: one is enough
@@ -87,16 +83,17 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
         tangent_.refresh(state.u, kind_of(iteration)))
       forget_compliance();
     ++counters_.newton_iterations;
-    const Eigen::VectorXd before = state.reduced;
+    const Eigen::VectorXd before = state.reduced, where = state.u, balance = balance_;
     Correction correction = correct(state, offset);
+    const Eigen::VectorXd change = state.u - where;
     if (relations_.update) offset = relations_.update(time, state);
     const bool is_linear = mixed_ && mixed_->is_linear();
     if (is_linear) correction.changes = mixed_->linearise(state.u, time);
     bool is_whole = true;
-    if (searches(iteration))
-      is_whole = search(before, external, offset, state) || !has_conditions();
-    else
-      evaluate(state, external);
+    searched_ = 1.0;
+    if (searches(iteration)) is_whole = search(before, external, offset, state) || !has_conditions();
+    if (knows_reactions()) take_reactions(balance, change, searched_);
+    if (knows_reactions() || !searches(iteration)) evaluate(state, external);
     const auto measure = distance(state);
     history.push_back(report(time, earlier + iteration, measure, correction.changes, state));
     if (observer_) observer_(history.back());
@@ -206,23 +203,9 @@ void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& 
   residual_ = elimination_.transformation().transpose() * balance_;
   if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
   if (mixed_) residual_ += mixed_->forces();
-  load_ = weights_.load_size(loads, internal, variable_forces_);
+  load_ = knows_reactions() && reactions_.size() ? load_with_reactions(loads, internal)
+                                                 : weights_.load_size(loads, internal, variable_forces_);
   applied_ = largest_component(loads);
-}
-
-ConvergenceCriterion::Measure NewtonSolver::distance(const NewtonState& state) const {
-  const Eigen::VectorXd weighed = weights_.weighed(residual_);
-  const MixedContact::HeldImbalance held = mixed_ ? mixed_->held_imbalance(balance_) : MixedContact::HeldImbalance();
-  return criterion_.measure(std::max(held.counted, largest_component(weighed)), std::max(held.largest, load_),
-                            is_rounding(state), reference_.share(residual_), reference_.share_by_component(weighed));
-}
-
-/// Whether the residual is no more than the last bits of u, moved to and fro, make of it. Not where u is so large that
-/// the loads are lost in them: a body that nothing holds has flown away.
-bool NewtonSolver::is_rounding(const NewtonState& state) const {
-  if (applied_ > 0.0 && largest_component(residual_) > lost_load * applied_) return false;
-  return tangent_.row_sizes().size() == residual_.size() && !tangent_.is_saddle() &&
-         (residual_.array().abs() <= rounding_share * tangent_.sizes_times(state.u).array()).all();
 }
 
 NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::VectorXd& offset) {
@@ -286,7 +269,8 @@ bool NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& 
   const double start = has_conditions() ? work(0.0) : step.dot(residual_);
   const double reached = search_line(*options_.line_search, start, work);
   go(reached);
-  evaluate(state, external);
+  searched_ = reached;
+  if (!knows_reactions()) evaluate(state, external);
   return reached == 1.0;
 }
 

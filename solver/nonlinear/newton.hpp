@@ -57,6 +57,10 @@ class NewtonSolver {
   /// Contact in the mixed formulation takes part in every solve from now on; null: none.
   void attach(MixedContact* mixed) { mixed_ = mixed; }
 
+  /// These unknowns are eliminated, without reactions (AFFE_CHAR_CINE): what the linear solves do not balance there is
+  /// no residual.
+  void set_eliminated(std::vector<int> dofs) { eliminated_ = std::move(dofs); }
+
   /// The next solutions belong to a step of this length (s), which may be short enough for the elastic stiffness.
   void start_step(double duration);
 
@@ -127,6 +131,10 @@ class NewtonSolver {
   void measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal);
   ConvergenceCriterion::Measure distance(const NewtonState& state) const;
   bool is_rounding(const NewtonState& state) const;
+  bool knows_reactions() const;
+  void take_reactions(const Eigen::VectorXd& balance, const Eigen::VectorXd& change, double taken);
+  Eigen::VectorXd held_imbalance() const;
+  double load_with_reactions(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal) const;
   void polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset);
   std::optional<double> penetration(const NewtonState& state) const;
   IterationReport report(double time, int iteration, const ConvergenceCriterion::Measure& measure, int changes,
@@ -163,7 +171,10 @@ class NewtonSolver {
   double load_ = 0.0;
   Eigen::VectorXd balance_;  ///< external less internal forces, on all degrees of freedom
   double applied_ = 0.0;     ///< the largest component of the external forces
-  int steps_ = 0;            ///< accepted so far
+  std::vector<int> eliminated_;
+  Eigen::VectorXd reactions_;  ///< of the linear solves, at the unknowns that conditions hold; zero elsewhere
+  double searched_ = 1.0;      ///< how much of the last correction was taken
+  int steps_ = 0;              ///< accepted so far
   TangentKind prediction_;
   TangentPolicy policy_;   ///< of this step
   bool is_short_ = false;  ///< this step takes the elastic stiffness because of its length

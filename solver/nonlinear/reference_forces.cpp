@@ -33,8 +33,6 @@ class Summation {
         dofs_(dofs),
         efforts_(efforts),
         points_(model),
-        sums_(VectorXd::Zero(dofs.size())),
-        counts_(VectorXd::Zero(dofs.size())),
         least_(VectorXd::Constant(dofs.size(), unknown)) {}
 
   VectorXd of_all() {
@@ -45,7 +43,7 @@ class Summation {
       else if (!model_.is_skin(cell))
         add_structure(cell);
     }
-    return (least_.array() < unknown).select(least_.array(), sums_.array() / counts_.array().max(1.0));
+    return (least_.array() < unknown).select(least_, 0.0);
   }
 
  private:
@@ -56,13 +54,6 @@ class Summation {
                 fmt::format("give {}", keyword));
   }
 
-  void add(int node, Component component, double force) {
-    const int dof = dofs_.dof(node, component);
-    if (dof < 0) return;
-    sums_[dof] += force;
-    counts_[dof] += 1.0;
-  }
-
   void add_least(int node, Component component, double force) {
     const int dof = dofs_.dof(node, component);
     if (dof >= 0) least_[dof] = std::min(least_[dof], force);
@@ -71,19 +62,25 @@ class Summation {
   void add_continuum(int cell) {
     require(efforts_.stress, cell, "SIGM_REFE");
     const auto nodes = mesh_.cell(cell);
-    VectorXd forces = VectorXd::Zero(static_cast<Eigen::Index>(nodes.size()));
+    VectorXd forces = VectorXd::Zero(static_cast<Eigen::Index>(nodes.size())), round = forces;
     for (const ContinuumSample& sample : points_.samples(cell)) {
       const ContinuumPoint point = points_.locate(cell, sample);
-      forces += efforts_.stress * point.weight * point.gradients.cwiseAbs().rowwise().sum();
+      const double weight = efforts_.stress * std::abs(point.weight);
+      forces += weight * point.gradients.cwiseAbs().rowwise().sum();
+      if (is_axisymmetric(model_.formulations[static_cast<std::size_t>(cell)]))
+        round += weight / point.at[0] * sample.values.cwiseAbs();
     }
     if (model_.corner_components_of(cell) != 0) return add_mixed(cell, forces);
-    for (std::size_t i = 0; i < nodes.size(); ++i)
+    const auto points = static_cast<double>(points_.samples(cell).size());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const auto at = static_cast<Eigen::Index>(i);
       for (const Component component : translation_components)
-        add(nodes[i], component, forces[static_cast<Eigen::Index>(i)]);
+        add_least(nodes[i], component, (forces[at] + (component == Component::dx ? round[at] : 0.0)) / points);
+    }
   }
 
-  /// Code_Aster takes the mean over the components of the stress, SIP among them, where other elements have the sum,
-  /// and of the cells at a node the least (docs/conformance.md). The balance of the pressure is one of strains, that of
+  /// Code_Aster takes the mean over the components of the stress, SIP among them, where other elements take it over
+  /// their points (docs/conformance.md). The balance of the pressure is one of strains, that of
   /// the swelling one of stresses: integrals of both times the shape functions of the corners.
   void add_mixed(int cell, const VectorXd& forces) {
     const double components = continuum_dimension(model_.formulations[static_cast<std::size_t>(cell)]) == 3 ? 7.0 : 5.0;
@@ -113,8 +110,8 @@ class Summation {
     if (turns) require(efforts_.moment, cell, "MOMENT_REFE");
     const double length = is_plate(model_.formulations[static_cast<std::size_t>(cell)]) ? extent(mesh_, cell) : 1.0;
     for (const int node : nodes) {
-      for (const Component component : translation_components) add(node, component, efforts_.force * length);
-      for (const Component component : rotations) add(node, component, efforts_.moment * length);
+      for (const Component component : translation_components) add_least(node, component, efforts_.force * length);
+      for (const Component component : rotations) add_least(node, component, efforts_.moment * length);
     }
   }
 
@@ -123,9 +120,7 @@ class Summation {
   const DofMap& dofs_;
   const ReferenceEfforts& efforts_;
   ContinuumPoints points_;
-  VectorXd sums_;
-  VectorXd counts_;
-  VectorXd least_;  ///< at the degrees of freedom of mixed elements
+  VectorXd least_;
 };
 
 }  // namespace
@@ -148,12 +143,20 @@ void ReferenceForces::renumber(const Elimination& elimination) {
   reduced_ = all_(elimination.kept());
 }
 
-double ReferenceForces::share(const VectorXd& residual) const {
+namespace {
+
+double largest_share(const VectorXd& forces, const VectorXd& references) {
   double largest = 0.0;
-  for (Eigen::Index i = 0; i < reduced_.size(); ++i)
-    if (reduced_[i] > 0.0) largest = std::max(largest, std::abs(residual[i]) / reduced_[i]);
+  for (Eigen::Index i = 0; i < references.size(); ++i)
+    if (references[i] > 0.0) largest = std::max(largest, std::abs(forces[i]) / references[i]);
   return largest;
 }
+
+}  // namespace
+
+double ReferenceForces::share(const VectorXd& residual) const { return largest_share(residual, reduced_); }
+
+double ReferenceForces::share_of_all(const VectorXd& forces) const { return largest_share(forces, all_); }
 
 void ReferenceForces::begin_step(const VectorXd& internal_forces) {
   largest_.fill(0.0);
@@ -169,14 +172,25 @@ void ReferenceForces::begin_step(const VectorXd& internal_forces) {
     largest_[static_cast<std::size_t>(each)] = pushed;
 }
 
-std::optional<double> ReferenceForces::share_by_component(const VectorXd& residual) const {
+double ReferenceForces::share_of_kind(double force, int kind) const {
   const double of_all = std::ranges::max(largest_);
-  if (!(of_all > 0.0)) return std::nullopt;
+  const double own = largest_[static_cast<std::size_t>(kind)];
+  return std::abs(force) / (own > vanishing_force * of_all ? own : of_all);
+}
+
+std::optional<double> ReferenceForces::share_by_component(const VectorXd& residual) const {
+  if (!(std::ranges::max(largest_) > 0.0)) return std::nullopt;
   double share = 0.0;
-  for (Eigen::Index i = 0; i < residual.size(); ++i) {
-    const double own = largest_[static_cast<std::size_t>(kinds_[static_cast<std::size_t>(i)])];
-    share = std::max(share, std::abs(residual[i]) / (own > vanishing_force * of_all ? own : of_all));
-  }
+  for (Eigen::Index i = 0; i < residual.size(); ++i)
+    share = std::max(share, share_of_kind(residual[i], kinds_[static_cast<std::size_t>(i)]));
+  return share;
+}
+
+std::optional<double> ReferenceForces::share_by_component_of_all(const VectorXd& forces) const {
+  if (!(std::ranges::max(largest_) > 0.0)) return std::nullopt;
+  double share = 0.0;
+  for (int dof = 0; dof < forces.size(); ++dof)
+    share = std::max(share, share_of_kind(forces[dof], static_cast<int>(dofs_.component_of(dof))));
   return share;
 }
 

@@ -53,6 +53,7 @@ StaticRun::StaticRun(const StaticProblem& problem, const NewtonOptions& options,
       contact_nodes_(nodes_of_contact()),
       observer_(observer),
       newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, reference_, support(), observer) {
+  newton_.set_eliminated(dofs_without_reactions(problem.loads, dofs_));
   if (problem.contact) newton_.use_algorithm(*problem.contact);
   const bool has_bounds = problem.contact || !problem.unilateral.empty();
   takes_plain_tangents_ =

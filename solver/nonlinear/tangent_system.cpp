@@ -61,13 +61,16 @@ bool TangentSystem::is_known(TangentKind kind) const {
 }
 
 bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
-  if (is_known(kind) || elimination_.reduced_size() == 0) return false;
+  if (is_known(kind) || (elimination_.reduced_size() == 0 && is_constant())) return false;
   version_ = assembler_.stiffness_version();
   kind_ = kind;
-  SymmetricMatrix reduced = assembled(u, kind);
+  const SymmetricMatrix whole = stiffness(u, kind);
+  if (!is_constant()) take_held_rows(whole, u);
+  if (elimination_.reduced_size() == 0) return false;
+  const SymmetricMatrix reduced = reduce(whole);
   try {
     if (is_symmetric())
-      factorise(std::move(reduced));
+      factorise(reduced);
     else
       factorise(reduced, elimination_.reduce_skew(skew(u)));
   } catch (const Error& error) {
@@ -138,10 +141,32 @@ double TangentSystem::largest_term(const Eigen::VectorXd& u) const {
 }
 
 SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u, TangentKind kind) const {
+  return reduce(stiffness(u, kind));
+}
+
+SymmetricMatrix TangentSystem::reduce(const SymmetricMatrix& whole) const {
   const Stopwatch stopwatch(counters_.assembling);
-  SymmetricMatrix reduced = elimination_.reduce(stiffness(u, kind));
+  SymmetricMatrix reduced = elimination_.reduce(whole);
   for (const auto& [row, stiffness] : springs_) reduced.coeffRef(row, row) += stiffness;
   return reduced;
+}
+
+void TangentSystem::take_held_rows(const SymmetricMatrix& whole, const Eigen::VectorXd& u) {
+  std::vector<char> held(static_cast<std::size_t>(dofs_.size()), 1);
+  for (const int dof : elimination_.kept()) held[static_cast<std::size_t>(dof)] = 0;
+  std::vector<Eigen::Triplet<double>> terms;
+  const auto take = [&](const auto& lower, double across) {
+    for (int column = 0; column < lower.outerSize(); ++column)
+      for (typename std::decay_t<decltype(lower)>::InnerIterator it(lower, column); it; ++it) {
+        const auto i = static_cast<int>(it.row()), j = static_cast<int>(it.col());
+        if (held[static_cast<std::size_t>(i)] != 0) terms.emplace_back(i, j, it.value());
+        if (i != j && held[static_cast<std::size_t>(j)] != 0) terms.emplace_back(j, i, across * it.value());
+      }
+  };
+  take(whole, 1.0);
+  if (!is_symmetric()) take(skew(u), -1.0);
+  held_rows_.resize(dofs_.size(), dofs_.size());
+  held_rows_.setFromTriplets(terms.begin(), terms.end());
 }
 
 std::string TangentSystem::unheld() const { return springs_.empty() ? std::string() : parts_on_springs(nullptr); }

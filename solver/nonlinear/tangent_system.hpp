@@ -56,6 +56,10 @@ class TangentSystem {
   /// K d of each column, on all degrees of freedom.
   Eigen::MatrixXd forces(const Eigen::VectorXd& u, const Eigen::MatrixXd& d, TangentKind kind) const;
 
+  /// K d at the unknowns that conditions eliminate, by the tangent that was factorised last and is no constant one;
+  /// zero at the others. All degrees of freedom in and out.
+  Eigen::VectorXd held_forces(const Eigen::VectorXd& d) const { return held_rows_ * d; }
+
   /// From now on springs are added where nothing holds the bodies, instead of an error: whoever calls this takes them
   /// off again.
   void allow_springs() { may_add_springs_ = true; }
@@ -129,6 +133,8 @@ class TangentSystem {
   SymmetricMatrix stiffness(const Eigen::VectorXd& u, TangentKind kind) const;
   std::string parts_on_springs(const RowMatrix* held) const;
   SymmetricMatrix assembled(const Eigen::VectorXd& u, TangentKind kind) const;
+  SymmetricMatrix reduce(const SymmetricMatrix& whole) const;
+  void take_held_rows(const SymmetricMatrix& whole, const Eigen::VectorXd& u);
   bool is_known(TangentKind kind) const;
   bool is_symmetric() const { return stays_symmetric_ || (assembler_.is_symmetric() && !followers_); }
   SkewMatrix skew(const Eigen::VectorXd& u) const;
@@ -160,6 +166,7 @@ class TangentSystem {
   std::unique_ptr<UnsymmetricSolver> unsymmetric_;
   Eigen::VectorXd row_sizes_, rotation_sizes_;
   mutable std::vector<int> body_of_node_;  ///< once asked for
+  RowMatrix held_rows_;                    ///< of the stiffness, empty at unknowns that are not eliminated
   int lost_digits_ = 0;
   bool is_indefinite_ = false;
   bool factorised_ = false;

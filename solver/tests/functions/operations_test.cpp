@@ -115,18 +115,33 @@ TEST_CASE("a function and its inverse undo each other", "[functions]") {
     CHECK(same.y == f.x);
   }
   CHECK(inverse(falling).parameter == falling.parameter);
-  CHECK(inverse(falling).right == Extension::constant);
+  // What is constant has no inverse.
+  CHECK(inverse(falling).right == Extension::excluded);
+  falling.left = Extension::linear;
+  CHECK(inverse(falling).right == Extension::linear);
   CHECK_THROWS_AS(inverse(bump), Error);
+}
+
+TEST_CASE("a function at other abscissas goes on as it is extended", "[functions]") {
+  TabulatedFunction ramp{.x = {1.0, 3.0}, .y = {2.0, 8.0}};
+  ramp.right = Extension::constant;
+  const TabulatedFunction other = resampled(ramp, {1.0, 2.0, 4.0});
+  CHECK(other.x == std::vector<double>{1.0, 2.0, 4.0});
+  CHECK(other.y == std::vector<double>{2.0, 5.0, 8.0});
+  CHECK_THROWS_AS(resampled(ramp, {0.0, 2.0}), Error);
 }
 
 TEST_CASE("functions one after the other keep the ends of both, and one of them where they overlap", "[functions]") {
   TabulatedFunction late{.x = {3.0, 5.0}, .y = {0.0, 1.0}};
   late.right = Extension::constant;
-  const TabulatedFunction by_second = in_succession(line, late, Overlap::second);
+  const TabulatedFunction by_second = in_succession(line, late, Overlap::right);
   CHECK(by_second.x == std::vector<double>{0.0, 1.0, 3.0, 5.0});
   CHECK(by_second.y == std::vector<double>{1.0, 3.0, 0.0, 1.0});
   CHECK(by_second.right == Extension::constant);
-  CHECK(in_succession(line, late, Overlap::first).x == std::vector<double>{0.0, 1.0, 4.0, 5.0});
+  CHECK(in_succession(line, late, Overlap::left).x == std::vector<double>{0.0, 1.0, 4.0, 5.0});
+  // Whichever is written first.
+  CHECK(in_succession(late, line, Overlap::right).x == by_second.x);
+  CHECK(in_succession(late, line, Overlap::left).x == std::vector<double>{0.0, 1.0, 4.0, 5.0});
 }
 
 TEST_CASE("a fractile of functions goes from the lower to the upper envelope", "[functions]") {

@@ -97,6 +97,18 @@ TEST_CASE("nodes between others are numbered along lines first, then along faces
   CHECK(larger.cell(0)[8] == 12);
 }
 
+TEST_CASE("cells that stay as they are number the nodes that they share with converted ones", "[mesh]") {
+  Mesh mesh = single(CellType::hexa8);
+  mesh.add_cell(CellType::quad4, Group{4, 5, 6, 7});
+  mesh.add_cell(CellType::seg2, Group{6, 7});
+  const Mesh larger = converted(mesh, first_cell, Conversion::to_quadratic);
+  CHECK(larger.node_count() == 20);
+  CHECK(larger.cell_types[1] == CellType::quad4);
+  // The line's node, those of the face, then the others of the solid.
+  CHECK(Group(larger.cell(0).begin() + 16, larger.cell(0).end()) == Group{9, 10, 8, 11});
+  CHECK(larger.cell(0)[8] == 12);
+}
+
 TEST_CASE("the middle of a curved face lies on the face", "[mesh]") {
   Mesh mesh = single(CellType::quad8);
   for (Point& node : mesh.nodes) node[2] = node[0] * node[0];  // a parabolic cylinder, which QUAD8 represents exactly
@@ -114,7 +126,8 @@ TEST_CASE("doubled cells and points are cells of their own in a new group", "[me
   CHECK(Group(mesh.cell(2).begin(), mesh.cell(2).end()) == Group{1, 2, 5, 4});
   CHECK(mesh.cell_group("ENDS") == Group{3, 4});
   CHECK(mesh.cell_types[3] == CellType::poi1);
-  CHECK(mesh.cell(4)[0] == 0);
+  CHECK(mesh.cell(3)[0] == 0);
+  CHECK(mesh.cell(4)[0] == 5);
   CHECK_THROWS_AS(add_points(mesh, Group{1}, "TWIN"), Error);
 }
 
@@ -127,7 +140,9 @@ TEST_CASE("a part of a mesh keeps names and what remains of its groups", "[mesh]
   CHECK(part.find_node("N1") == -1);
   CHECK(part.cell_groups.at("BOTH") == Group{0});
   CHECK_FALSE(part.node_groups.contains("LEFT"));
-  CHECK(part.node_groups.at("ALL") == Group{0, 1, 2, 3});
+  // Numbered as the cell meets them.
+  CHECK(Group(part.cell(0).begin(), part.cell(0).end()) == Group{0, 1, 2, 3});
+  CHECK(part.node_groups.at("ALL") == Group{0, 1, 3, 2});
   CHECK(std::abs(signed_size(part, 0)) == exactly(1.0));
 }
 
@@ -194,6 +209,9 @@ TEST_CASE("quadrangles cut into triangles keep area, sense and groups", "[mesh]"
   CHECK(area == exactly(2.0));
   CHECK(mesh.cell_group("BOTH").size() == 4);
   CHECK(mesh.cell_group("RIGHT").size() == 2);
+  // Pieces stand where the whole stood.
+  CHECK(mesh.cell_group("RIGHT") == Group{2, 3});
+  CHECK(with_triangles(pair_of_faces(), first_cell).cell_group("RIGHT") == Group{2});
   // Only the first is cut.
   CHECK(with_triangles(pair_of_faces(), first_cell).cell_group("BOTH").size() == 3);
   for (const auto& [type, pieces] : {std::pair(CellType::quad8, 6), std::pair(CellType::quad9, 8)}) {

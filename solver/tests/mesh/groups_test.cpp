@@ -114,6 +114,13 @@ TEST_CASE("cells are found by their nodes") {
   CHECK(cells_on_nodes(mesh, nodes, NodeCriterion::all) == Group{1});
   CHECK(cells_on_nodes(mesh, nodes, NodeCriterion::any) == Group{0, 1});
   CHECK(cells_on_nodes(mesh, nodes, NodeCriterion::majority) == Group{0, 1});
+  // Half of the nodes are enough.
+  CHECK(cells_on_nodes(cube_of_hexa27(), Group{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}, NodeCriterion::majority)
+            .empty());
+  Mesh square;
+  square.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  square.add_cell(CellType::quad4, Group{0, 1, 2, 3});
+  CHECK(cells_on_nodes(square, Group{1, 3}, NodeCriterion::majority) == Group{0});
 }
 
 TEST_CASE("an open line is walked from end to end") {

@@ -241,6 +241,25 @@ TEST_CASE("the faces of a warped sheet get normals on the side that is asked for
   CHECK(code_of([&] { orient_normals(mesh, cells, std::nullopt); }) == "several-pieces");
 }
 
+TEST_CASE("a face of a sheet that is turned keeps its first node, and middle nodes between their corners") {
+  for (const CellType type : {CellType::quad8, CellType::tria6}) {
+    Mesh mesh;
+    mesh.nodes = reference_points(type);
+    std::vector<int> nodes(mesh.nodes.size());
+    std::iota(nodes.begin(), nodes.end(), 0);
+    mesh.add_cell(type, nodes);
+    orient_normals(mesh, std::vector{0}, OrientationSeed{0, {0.0, 0.0, -1.0}});
+    const auto turned = mesh.cell(0);
+    CHECK(turned[0] == 0);
+    CHECK(signed_size(mesh, 0) < 0.0);
+    const auto edges = middle_edges(type);
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      for (std::size_t axis = 0; axis < 2; ++axis)
+        CHECK(mesh.nodes[turned[corner_count(type) + i]][axis] ==
+              (mesh.nodes[turned[edges[i][0]]][axis] + mesh.nodes[turned[edges[i][1]]][axis]) / 2);
+  }
+}
+
 TEST_CASE("a sheet with one side only cannot be turned") {
   Mesh mesh;  // Moebius: a strip of triangles closed with a half twist
   const int count = 5;

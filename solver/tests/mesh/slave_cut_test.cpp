@@ -214,6 +214,28 @@ TEST_CASE("The centre of a bent quadratic face and what leads to it lie on the s
   }
 }
 
+TEST_CASE("Inner nodes lie where the shape functions of what is cut carry them", "[mesh]") {
+  // Under x -> (x, y + x y z, z + x y) the trilinear map stays exact, and so do its faces.
+  const auto carried = [](const Point& at) -> Point {
+    return {at[0], at[1] + at[0] * at[1] * at[2] / 4, at[2] + at[0] * at[1] / 4};
+  };
+  const auto cut_first_face = [](Mesh mesh, HexaCut cut, auto&& move) {
+    const Mesh straight = with_cut_slave_faces(mesh, std::vector{1}, cut);
+    for (Point& node : mesh.nodes) node = move(node);
+    const Mesh moved = with_cut_slave_faces(mesh, std::vector{1}, cut);
+    for (int node = 0; node < moved.node_count(); ++node)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        CHECK(moved.nodes[node][axis] == Approx(move(straight.nodes[node])[axis]).margin(1e-14));
+  };
+  cut_first_face(dressed(CellType::hexa8), HexaCut::hexahedra, carried);
+  // Quadratic cells hold all quadratic polynomials.
+  const auto bent = [](const Point& at) -> Point {
+    return {at[0] + at[1] * at[2] / 8, at[1] + at[0] * at[0] / 8, at[2] + at[0] * at[1] / 8 + at[2] * at[2] / 16};
+  };
+  for (const CellType type : {CellType::tetra10, CellType::penta15, CellType::hexa20})
+    cut_first_face(dressed(type), HexaCut::pyramids, bent);
+}
+
 TEST_CASE("Groups hold the pieces of their cells, the first under the old name", "[mesh]") {
   Mesh mesh = dressed(CellType::quad4);
   mesh.cell_names = {"BODY", "A", "B", "C", "D"};

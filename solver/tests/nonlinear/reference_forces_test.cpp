@@ -10,7 +10,7 @@
 using namespace comma::solver;
 using comma::solver::testing::Scene;
 
-TEST_CASE("The reference force of a square's corner is the stress times half a side, once for each direction") {
+TEST_CASE("The reference force of a corner is the stress times half a side, once for each direction, over the points") {
   Scene scene;
   const auto block = scene.block("b", {0, 0}, {2, 2}, 1, 1, 1000.0, 0.0);
   const DofMap dofs(*scene.problem.model);
@@ -19,7 +19,28 @@ TEST_CASE("The reference force of a square's corner is the stress times half a s
   // The integral of |dN/dx| over the square is half of its height.
   const Eigen::VectorXd forces = reference_forces(*scene.problem.model, dofs, efforts);
   for (const auto& row : block.nodes)
-    for (const int node : row) CHECK(forces[dofs.dof(node, Component::dx)] == exactly(7.0 * (1.0 + 1.0)));
+    for (const int node : row) CHECK(forces[dofs.dof(node, Component::dx)] == exactly(7.0 * (1.0 + 1.0) / 4.0));
+}
+
+TEST_CASE("Where cells meet the least reference force counts; round an axis the radius has a share") {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->dimension = 2;
+  mesh->nodes = {{1, 0, 0}, {2, 0, 0}, {4, 0, 0}, {1, 1, 0}, {2, 1, 0}, {4, 1, 0}};
+  mesh->add_cell(CellType::quad4, std::vector<int>{0, 1, 4, 3});
+  mesh->add_cell(CellType::quad4, std::vector<int>{1, 2, 5, 4});
+  ReferenceEfforts efforts;
+  efforts.stress = 1.0;
+  const auto at = [&](Formulation formulation, int node, Component component) {
+    const Model model{mesh, {formulation, formulation}};
+    const DofMap dofs(model);
+    return reference_forces(model, dofs, efforts)[dofs.dof(node, component)];
+  };
+  CHECK(at(Formulation::plane_strain, 1, Component::dx) == exactly((0.5 + 0.5) / 4.0));
+  CHECK(at(Formulation::plane_strain, 2, Component::dx) == exactly((1.0 + 0.5) / 4.0));
+  // Code_Aster 17.3, to five digits.
+  CHECK(at(Formulation::axisymmetric, 1, Component::dx) == Approx(0.45833).epsilon(2e-5));
+  CHECK(at(Formulation::axisymmetric, 1, Component::dy) == Approx(0.39583).epsilon(2e-5));
+  CHECK(at(Formulation::axisymmetric, 2, Component::dx) == Approx(1.33333).epsilon(1e-5));
 }
 
 TEST_CASE("Corners of mixed elements have their share of the volume times the strain and the stress") {
