@@ -8,7 +8,7 @@
 
 #include <Eigen/Dense>
 
-#include "solver/elements/reference_element.hpp"
+#include "solver/mesh/reference_element.hpp"
 #include "solver/mesh/mesh.hpp"
 #include "solver/model/model.hpp"
 

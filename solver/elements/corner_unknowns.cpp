@@ -4,7 +4,7 @@
 #include <array>
 
 #include "solver/elements/element_block.hpp"
-#include "solver/elements/reference_element.hpp"
+#include "solver/mesh/reference_element.hpp"
 
 namespace comma::solver {
 

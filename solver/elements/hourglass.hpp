@@ -6,7 +6,7 @@
 
 #include <Eigen/Dense>
 
-#include "solver/elements/reference_element.hpp"
+#include "solver/mesh/reference_element.hpp"
 #include "solver/materials/elasticity.hpp"
 
 namespace comma::solver {

@@ -22,7 +22,7 @@
 
 #include <Eigen/Dense>
 
-#include "solver/elements/reference_element.hpp"
+#include "solver/mesh/reference_element.hpp"
 
 namespace comma::solver {
 

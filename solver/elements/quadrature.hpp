@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "solver/elements/reference_element.hpp"
+#include "solver/mesh/reference_element.hpp"
 #include "solver/model/model.hpp"
 
 namespace comma::solver {

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/reference_element.hpp"
+#include "solver/mesh/reference_element.hpp"
 #include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
 

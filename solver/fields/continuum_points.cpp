@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "solver/elements/cell_material.hpp"
-#include "solver/elements/reference_element.hpp"
+#include "solver/mesh/reference_element.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {

@@ -1,7 +1,7 @@
 #include "solver/fields/discretisation.hpp"
 
 #include "solver/elements/quadrature.hpp"
-#include "solver/elements/reference_element.hpp"
+#include "solver/mesh/reference_element.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/continuum_points.hpp"
 #include "solver/fields/extrapolation.hpp"

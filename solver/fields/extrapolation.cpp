@@ -8,7 +8,7 @@
 
 #include "solver/elements/beam_points.hpp"
 #include "solver/elements/quadrature.hpp"
-#include "solver/elements/reference_element.hpp"
+#include "solver/mesh/reference_element.hpp"
 #include "solver/error.hpp"
 #include "solver/model/stress_names.hpp"
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "solver/elements/assembler.hpp"
-#include "solver/elements/reference_element.hpp"
+#include "solver/mesh/reference_element.hpp"
 
 namespace comma::solver::testing {
 

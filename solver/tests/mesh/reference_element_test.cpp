@@ -1,4 +1,4 @@
-#include "solver/elements/reference_element.hpp"
+#include "solver/mesh/reference_element.hpp"
 
 #include <catch2/catch.hpp>
 

@@ -1,6 +1,6 @@
 // The formulas are written once, on a scalar type S: with S = double they give values, with S = Dual values and
 // gradients.
-#include "solver/elements/reference_element.hpp"
+#include "solver/mesh/reference_element.hpp"
 
 namespace comma::solver {
 
