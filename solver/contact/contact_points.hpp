@@ -41,7 +41,8 @@ struct ContactPoint {
   double offset = 0.0;         ///< see shares; thicknesses count in it
   bool bears_nothing = false;  ///< on the axis of an axisymmetric face, of second order, where no uniform pressure has
                                ///< a force at its node, or under a penalty, which has next to none
-  double area = 0.0;           ///< of the whole patch, `weight` being that of the part that faces the master
+  double area = 0.0;  ///< of the patch's faces that face the master (of all, where none does), `weight` being that of
+                      ///< the part that does
 };
 
 /// Zones in order, faces in order (R5.03.52). Points that share a node and a normal are one, with the sum of their

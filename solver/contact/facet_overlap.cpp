@@ -7,7 +7,6 @@
 
 #include "solver/contact/face_rule.hpp"
 #include "solver/contact/polygon.hpp"
-#include "solver/error.hpp"
 
 namespace comma::solver {
 namespace {
@@ -23,11 +22,10 @@ constexpr double last_step = 1e-9;
 constexpr double least_facing = 0.1;
 /// A common part below this share of the slave's reference measure is rounding at an edge.
 constexpr double sliver = 1e-12;
-/// Gauss points a segment: exact for the products of quadratic shape functions with a quadratic map.
-constexpr int segment_points = 4;
-/// Order of the triangles' rule: six points, whatever the facets are like (Code_Aster 17.3; with what integrates
-/// distorted facets exactly its figures are 3e-7 off).
-constexpr int triangle_order = 4;
+/// Gauss points a segment, and the degree of the triangles' rule (FPG6): what Code_Aster's figures say of bent facets,
+/// where neither is exact (17.3, to 1e-14).
+constexpr int segment_points = 3;
+constexpr int triangle_degree = 4;
 
 /// A facet seen from a place near it: its distance from the origin of the mesh then costs no digits.
 class Near {
@@ -35,7 +33,7 @@ class Near {
   Near(const FacetGeometry& facet, const Vector3d& origin) : facet_(facet) {
     for (std::size_t i = 0; i < facet.points.size(); ++i) points_[i] = facet.points[i] - origin;
   }
-  FacetGeometry geometry() const { return {facet_.type, {points_.data(), facet_.points.size()}, {}}; }
+  FacetGeometry geometry() const { return {facet_.type, {points_.data(), facet_.points.size()}}; }
 
  private:
   const FacetGeometry& facet_;
@@ -66,16 +64,14 @@ Vector3d tangent_at(const FacetGeometry& line, double xi) {
   return facet_tangents(line.type, line.points, {xi, 0.0}).col(0);
 }
 
-/// Where the normal of a line passes through a place.
-std::optional<double> foot_on_slave(const FacetGeometry& slave, const Vector3d& place) {
-  const double slope = cross_in_plane(tangent_at(slave, 0.0), normal_at(slave, {0.0, 0.0}));
-  return solve_scalar(slope, [&](double xi) {
-    return cross_in_plane(point_at(slave, {xi, 0.0}) - place, normal_at(slave, {xi, 0.0}));
-  });
+/// The reference coordinate of a place's foot on the line between the ends of a facet.
+double foot_on_chord(const FacetGeometry& line, const Vector3d& place) {
+  const Vector3d chord = line.points[1] - line.points[0];
+  return 2.0 * chord.dot(place - line.points[0]) / chord.squaredNorm() - 1.0;
 }
 
 /// Where the slave's normal at a reference point meets a master line.
-std::optional<Vector2d> faced_by(const FacetGeometry& slave, const FacetGeometry& master, const Vector2d& at) {
+std::optional<Vector2d> met_on_line(const FacetGeometry& slave, const FacetGeometry& master, const Vector2d& at) {
   const Vector3d place = point_at(slave, at);
   const Vector3d normal = normal_at(slave, at);
   const auto hit = solve_scalar(cross_in_plane(tangent_at(master, 0.0), normal), [&](double xi) {
@@ -96,20 +92,19 @@ std::vector<FacePoint> part_rule(double begin, double end) {
 }
 
 FacetOverlap segment_overlap(const FacetGeometry& slave, const FacetGeometry& master) {
-  const auto first = foot_on_slave(slave, master.points[0]);
-  const auto last = foot_on_slave(slave, master.points[1]);
-  if (!first || !last) return {};
-  const double begin = std::max(-1.0, std::min(*first, *last));
-  const double end = std::min(1.0, std::max(*first, *last));
+  const double first = foot_on_chord(slave, master.points[0]);
+  const double last = foot_on_chord(slave, master.points[1]);
+  const double begin = std::max(-1.0, std::min(first, last));
+  const double end = std::min(1.0, std::max(first, last));
   if (end - begin <= sliver) return {};
   FacetOverlap overlap;
   for (const FacePoint& at : part_rule(begin, end)) {
-    const auto hit = faced_by(slave, master, at.xi);
+    const auto hit = met_on_line(slave, master, at.xi);
     if (!hit || normal_at(slave, at.xi).dot(normal_at(master, *hit)) > -least_facing) return {};
     overlap.points.push_back({at.xi, *hit, at.weight});
   }
-  const auto from = faced_by(slave, master, {begin, 0.0});
-  const auto to = faced_by(slave, master, {end, 0.0});
+  const auto from = met_on_line(slave, master, {begin, 0.0});
+  const auto to = met_on_line(slave, master, {end, 0.0});
   if (!from || !to) return {};
   overlap.master = part_rule((*from)[0], (*to)[0]);
   return overlap;
@@ -118,29 +113,16 @@ FacetOverlap segment_overlap(const FacetGeometry& slave, const FacetGeometry& ma
 /// A surface facet as its corners say: flat triangles, bilinear quadrangles.
 FacetGeometry straight_edged(const FacetGeometry& facet) {
   const int corners = corner_count(facet.type);
-  return {corners == 3 ? CellType::tria3 : CellType::quad4, facet.points.first(static_cast<std::size_t>(corners)), {}};
+  return {corners == 3 ? CellType::tria3 : CellType::quad4, facet.points.first(static_cast<std::size_t>(corners))};
 }
 
-/// The plane at a place of the slave, across its normal there.
 class Plane {
  public:
-  Plane(const FacetGeometry& slave, const Vector2d& at)
-      : origin_(point_at(slave, at)),
-        normal_(normal_at(slave, at)),
-        first_(normal_.unitOrthogonal()),
-        second_(normal_.cross(first_)) {}
+  Plane(const Vector3d& origin, const Vector3d& normal)
+      : origin_(origin), normal_(normal), first_(normal.unitOrthogonal()), second_(normal.cross(first_)) {}
 
   const Vector3d& normal() const { return normal_; }
   Vector2d at(const Vector3d& place) const { return along(place - origin_); }
-  Vector2d along(const Vector3d& vector) const { return {first_.dot(vector), second_.dot(vector)}; }
-
-  /// Of places on a facet, seen in the plane, by its reference coordinates.
-  Eigen::Matrix2d slope(const FacetGeometry& facet, const Vector2d& xi) const {
-    const auto tangents = facet_tangents(facet.type, facet.points, xi);
-    Eigen::Matrix2d result;
-    result << along(tangents.col(0)), along(tangents.col(1));
-    return result;
-  }
 
   /// The reference point of a facet that lies over a place of the plane.
   std::optional<Vector2d> over(const FacetGeometry& facet, const Vector2d& place) const {
@@ -156,7 +138,7 @@ class Plane {
     return std::nullopt;
   }
 
-  /// Counter-clockwise: corners.
+  /// Corners, counter-clockwise.
   Polygon outline(const FacetGeometry& facet) const {
     Polygon polygon;
     for (const Vector3d& corner : facet.points.first(static_cast<std::size_t>(corner_count(facet.type))))
@@ -166,8 +148,28 @@ class Plane {
   }
 
  private:
+  Vector2d along(const Vector3d& vector) const { return {first_.dot(vector), second_.dot(vector)}; }
+
+  /// Of places on a facet, seen in the plane, by its reference coordinates.
+  Eigen::Matrix2d slope(const FacetGeometry& facet, const Vector2d& xi) const {
+    const auto tangents = facet_tangents(facet.type, facet.points, xi);
+    Eigen::Matrix2d result;
+    result << along(tangents.col(0)), along(tangents.col(1));
+    return result;
+  }
+
   Vector3d origin_, normal_, first_, second_;
 };
+
+/// Through the first three corners.
+Plane plane_of(const FacetGeometry& facet) {
+  return {facet.points[0], facet_normal(CellType::tria3, facet.points.first(3), {0.0, 0.0})};
+}
+
+/// Where the slave's normal at a reference point meets a master surface.
+std::optional<Vector2d> met_on_surface(const FacetGeometry& slave, const FacetGeometry& master, const Vector2d& at) {
+  return Plane(point_at(slave, at), normal_at(slave, at)).over(master, Vector2d::Zero());
+}
 
 bool misses(const Polygon& a, const Polygon& b) {
   const auto box = [](const Polygon& polygon) {
@@ -178,47 +180,53 @@ bool misses(const Polygon& a, const Polygon& b) {
   return !box(a).intersects(box(b));
 }
 
-/// Integration points of a polygon of a facet's reference cell. It may have a slightly re-entrant corner, where a side
-/// that is straight in the plane is not in the cell: what lies outside counts as negative.
+/// Integration points of a part of a surface's reference cell. A corner may be slightly re-entrant, where a side that
+/// is straight on the other surface is not in this cell: what lies outside counts as negative.
 std::vector<FacePoint> part_rule(const Polygon& part) {
-  static const auto rule = face_rule(CellType::tria3, ContactRule::gauss, triangle_order);
+  static const auto rule = face_rule(CellType::tria3, ContactRule::gauss, triangle_degree);
   const double sense = signed_area(part) < 0.0 ? -1.0 : 1.0;
   std::vector<FacePoint> points;
-  for (std::size_t i = 1; i + 1 < part.size(); ++i) {
-    const Vector2d a = part[i] - part[0];
-    const Vector2d b = part[i + 1] - part[0];
+  for (const auto& [i, j, k] : triangles_of(part.size())) {
+    const Vector2d a = part[j] - part[i];
+    const Vector2d b = part[k] - part[i];
     const double twice = sense * (a[0] * b[1] - a[1] * b[0]);
     for (const FacePoint& gauss : rule)
-      points.push_back({part[0] + gauss.xi[0] * a + gauss.xi[1] * b, gauss.weight * twice});
+      points.push_back({part[i] + gauss.xi[0] * a + gauss.xi[1] * b, gauss.weight * twice});
   }
   return points;
 }
 
-/// Where the slave's normal at a reference point meets a master facet.
-std::optional<Vector2d> faced_by_surface(const FacetGeometry& slave, const FacetGeometry& master, const Vector2d& at) {
-  return Plane(slave, at).over(master, Vector2d::Zero());
-}
-
-FacetOverlap polygon_overlap(const FacetGeometry& slave, const FacetGeometry& master) {
-  const FacetGeometry straight = straight_edged(slave);
-  const Plane plane(straight, facet_centre(straight.type));
+/// What the corners of both have in common, in the slave's reference cell.
+Polygon common_part(const FacetGeometry& slave, const FacetGeometry& master) {
+  const Plane plane = plane_of(slave);
   const Polygon theirs = plane.outline(master);
   const Polygon ours = plane.outline(slave);
   if (misses(ours, theirs)) return {};
   if (plane.normal().dot(normal_at(master, facet_centre(master.type))) > -least_facing) return {};
   const Polygon common = clipped(theirs, ours);
   if (common.empty() || signed_area(common) <= sliver * signed_area(ours)) return {};
-  Polygon part, faced;  // by the reference coordinates of the slave and of the master
+  const FacetGeometry straight = straight_edged(slave);
+  Polygon part;
   for (const Vector2d& corner : common) {
     const auto at = plane.over(straight, corner);
-    const auto hit = at ? faced_by_surface(slave, master, *at) : at;
-    if (!hit) return {};
+    if (!at) return {};
     part.push_back(*at);
+  }
+  return about_mean(std::move(part));
+}
+
+FacetOverlap polygon_overlap(const FacetGeometry& slave, const FacetGeometry& master) {
+  const Polygon part = common_part(slave, master);
+  if (part.empty()) return {};
+  Polygon faced;
+  for (const Vector2d& corner : part) {
+    const auto hit = met_on_surface(slave, master, corner);
+    if (!hit) return {};
     faced.push_back(*hit);
   }
   FacetOverlap overlap;
   for (const FacePoint& at : part_rule(part)) {
-    const auto hit = faced_by_surface(slave, master, at.xi);
+    const auto hit = met_on_surface(slave, master, at.xi);
     if (!hit) return {};
     overlap.points.push_back({at.xi, *hit, at.weight});
   }
@@ -236,15 +244,7 @@ Vector3d point_at(const FacetGeometry& facet, const Vector2d& xi) {
 }
 
 Vector3d normal_at(const FacetGeometry& facet, const Vector2d& xi) {
-  if (facet.normals.empty()) return facet_normal(facet.type, facet.points, xi);
-  const FacetShape shape = facet_shape(facet.type, xi);
-  Vector3d normal = Vector3d::Zero();
-  for (std::size_t i = 0; i < facet.normals.size(); ++i) normal += shape.values[i] * facet.normals[i];
-  const double length = normal.norm();
-  if (!(length > 0.0))
-    throw Error("degenerate-facet", "the normals at the nodes of a contact facet cancel",
-                "refine the facet, or leave normals as they are (LISSAGE='NON')");
-  return normal / length;
+  return facet_normal(facet.type, facet.points, xi);
 }
 
 FacetOverlap facet_overlap(const FacetGeometry& slave, const FacetGeometry& master) {

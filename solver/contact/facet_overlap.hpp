@@ -1,4 +1,4 @@
-// What a slave facet and a master facet have in common, seen along the slave's normal: mortar segments and polygons.
+// What a slave facet and a master facet have in common, seen along the slave's normals: mortar segments and polygons.
 #pragma once
 
 #include <span>
@@ -11,12 +11,10 @@
 
 namespace comma::solver {
 
-/// A facet where it is now. `points`: one a node; `normals`: outward unit normals at the nodes, interpolated between
-/// them; empty: the facet's own are meant.
+/// A facet where it is now: one point a node.
 struct FacetGeometry {
   CellType type;
   std::span<const Eigen::Vector3d> points;
-  std::span<const Eigen::Vector3d> normals;
 };
 
 /// Outward unit normal at a reference point. Throws Error `degenerate-facet`.
@@ -39,17 +37,14 @@ struct FacetOverlap {
   std::vector<FacePoint> master;
 };
 
-/// Both facets by their own normals, whatever `normals` say.
-///
-/// Lines: the ends of the master are brought onto the slave along the slave's normals, and places of the segment
-/// between go back onto the master along them (Puso and Laursen, Computer Methods in Applied Mechanics and Engineering
-/// 193, 2004, in the plane). Surfaces: the corners of both are projected on the plane of the slave's corners, the
-/// polygons are clipped there: quadratic facets too count by their corners. Corners of what is common have the
-/// reference coordinates that they would have if the slave's edges were straight, and face the places of the master on
-/// the slave's own normals there. Between them sides are straight in the reference coordinates of either, where both
-/// parts are integrated by triangles of six points. Whatever middle nodes do, overlaps with all masters add up to the
-/// whole slave. Code_Aster's figures of pressures on bodies that do not deform uniformly say the same (ssnp170z, to
-/// 3e-8, ssnp170r, to 2e-7; with bent edges 1e-5); surfaces of HEXA20 and TETRA10 that begin flat agree to 1e-10.
+/// Which part of the slave faces the master is decided by corners: those of the master (ends of lines) are projected
+/// on the line through the slave's ends or the plane through its first three corners, and what is common there has the
+/// reference coordinates that it would have if the slave's edges were straight. Overlaps with all masters so add up to
+/// the whole slave, whatever middle nodes do. Each place of that part faces the master along the slave's own normal
+/// there, on a curved slave too (Puso and Laursen, Computer Methods in Applied Mechanics and Engineering 193, 2004, in
+/// the plane); the master's part lies between the places that the corners of the slave's part face so. Three Gauss
+/// points a segment, six a triangle, on either side. R5.03.55 leaves all this open: Code_Aster 17.3 tells it, by the
+/// rigid faces that it pushes on bent ones (to 1e-12; `testcases/contact/lac_bent`).
 FacetOverlap facet_overlap(const FacetGeometry& slave, const FacetGeometry& master);
 
 }  // namespace comma::solver

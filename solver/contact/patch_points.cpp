@@ -36,7 +36,7 @@ struct Gathered {
   Vector3d centre = Vector3d::Zero();
   double radius = 0.0;
 
-  FacetGeometry geometry() const { return {type, span(), {normals.data(), is_smooth ? count : 0}}; }
+  FacetGeometry geometry() const { return {type, span()}; }
   std::span<const Vector3d> span() const { return {points.data(), count}; }
 };
 
@@ -112,7 +112,7 @@ class PatchGaps {
     point_.cell = patch.front();
     point_.node = inner_nodes(mesh_, patch).front();
     sums_.clear();
-    gaps_ = area_ = 0.0;
+    gaps_ = area_ = faced_area_ = 0.0;
     const bool is_far = search_ && search_->too_far(positions_[point_.node]);
     for (const int face : patch) add_face(face, is_far);
     // Beyond the axis nothing has an area.
@@ -122,6 +122,7 @@ class PatchGaps {
       return point_;
     }
     point_.status = PairingStatus::paired;
+    point_.area = faced_area_;
     for (const auto& [node, sum] : sums_) point_.shares.push_back({node, sum / point_.weight});
     for (const GapShare& share : point_.shares) point_.offset += share.coefficient.dot(positions_[share.node]);
     point_.offset -= gaps_ / area_;
@@ -132,15 +133,21 @@ class PatchGaps {
  private:
   void add_face(int face, bool is_far) {
     const Gathered slave = slaves_.gather(face);
-    for (const FacePoint& at : face_rule(slave.type, ContactRule::gauss, area_order))
-      point_.area += at.weight * stretch(face, slave, at.xi);
+    double own = 0.0;
+    for (const FacePoint& at :
+         face_rule(slave.type, ContactRule::gauss, corner_count(slave.type) == 3 ? triangle_order : line_order))
+      own += at.weight * stretch(face, slave, at.xi);
+    point_.area += own;
     if (is_far) return;
     const Reach reach(slave);
+    bool faces_any = false;
     for (std::size_t m = 0; m < masters_.size(); ++m)
-      if (reach.has(masters_[m])) add_overlap(face, slave, zone_.master_cells[m], masters_[m]);
+      faces_any |= reach.has(masters_[m]) && add_overlap(face, slave, zone_.master_cells[m], masters_[m]);
+    if (faces_any) faced_area_ += own;
   }
 
-  void add_overlap(int face, const Gathered& slave, int facet, const Gathered& master) {
+  /// Whether there is any.
+  bool add_overlap(int face, const Gathered& slave, int facet, const Gathered& master) {
     const FacetOverlap overlap = facet_overlap(slave.geometry(), master.geometry());
     for (const OverlapPoint& at : overlap.points) {
       const Vector3d here = point_at(slave.geometry(), at.slave);
@@ -157,6 +164,7 @@ class PatchGaps {
     }
     for (const FacePoint& at : overlap.master)
       add_shares(facet, master, at.xi, -at.weight * stretch(facet, master, at.xi));
+    return !overlap.points.empty();
   }
 
   /// Of the area over which the pressure acts.
@@ -175,7 +183,8 @@ class PatchGaps {
           factor * shape.values[i] * (facet.is_smooth ? facet.normals[i] : own);
   }
 
-  static constexpr int area_order = 4;
+  /// Of the rules that areas of faces come by, as Code_Aster's figures have them.
+  static constexpr int line_order = 3, triangle_order = 4;
   const ContactZone& zone_;
   int index_;
   const Mesh& mesh_;
@@ -188,6 +197,7 @@ class PatchGaps {
   ContactPoint point_;
   std::map<int, Vector3d> sums_;
   double gaps_ = 0.0, area_ = 0.0;  ///< of the patch's part that faces the master, as it is now
+  double faced_area_ = 0.0;         ///< of its faces that face the master somewhere, before
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 #include "solver/contact/polygon.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace comma::solver {
 namespace {
@@ -37,6 +39,26 @@ Polygon clipped(const Polygon& polygon, const Polygon& convex) {
   for (std::size_t i = 0; i < convex.size() && result.size() > 2; ++i)
     result = left_of(result, convex[i], convex[(i + 1) % convex.size()]);
   return result.size() > 2 && signed_area(result) > 0.0 ? result : Polygon();
+}
+
+Polygon about_mean(Polygon polygon) {
+  Vector2d mean = Vector2d::Zero();
+  for (const Vector2d& corner : polygon) mean += corner / static_cast<double>(polygon.size());
+  std::ranges::sort(polygon, {},
+                    [&](const Vector2d& corner) { return std::atan2(corner[0] - mean[0], corner[1] - mean[1]); });
+  return polygon;
+}
+
+std::vector<std::array<std::size_t, 3>> triangles_of(std::size_t corners) {
+  std::vector<std::size_t> left(corners);
+  std::iota(left.begin(), left.end(), std::size_t{0});
+  std::vector<std::array<std::size_t, 3>> triangles;
+  while (left.size() > 2) {
+    triangles.push_back({left[0], left[1], left[2]});
+    left.erase(left.begin() + 1);
+    std::ranges::rotate(left, left.begin() + 1);
+  }
+  return triangles;
 }
 
 }  // namespace comma::solver

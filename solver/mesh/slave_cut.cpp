@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <set>
@@ -11,11 +12,11 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
-#include "solver/elements/reference_element.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/boundary.hpp"
 #include "solver/mesh/new_names.hpp"
 #include "solver/mesh/reference_cell.hpp"
+#include "solver/mesh/reference_element.hpp"
 
 namespace comma::solver {
 namespace {
@@ -404,10 +405,11 @@ Mesh with_cut_slave_faces(const Mesh& mesh, std::span<const int> faces, HexaCut 
 
 std::vector<int> inner_nodes(const Mesh& mesh, std::span<const int> patch) {
   std::map<FacetKey, std::pair<int, std::vector<int>>> edges;  // how many faces have it, and its nodes
-  std::map<int, std::size_t> nodes;                            // how many faces have it
+  std::set<int> nodes, corners;
   for (const int face : patch) {
     const Cell own{mesh.cell_types[face], {mesh.cell(face).begin(), mesh.cell(face).end()}};
-    for (const int node : own.nodes) ++nodes[node];
+    nodes.insert(own.nodes.begin(), own.nodes.end());
+    corners.insert(corners_of(own).begin(), corners_of(own).end());
     for (const Cell& edge : facets_of(own)) {
       auto& known = edges[key_of(corners_of(edge))];
       ++known.first;
@@ -418,8 +420,8 @@ std::vector<int> inner_nodes(const Mesh& mesh, std::span<const int> patch) {
     if (edge.first == 1)
       for (const int node : edge.second) nodes.erase(node);
   std::vector<int> inner;
-  for (const auto& [node, faces] : nodes) inner.push_back(node);
-  std::ranges::stable_partition(inner, [&](int node) { return nodes.at(node) == patch.size(); });
+  std::ranges::set_intersection(nodes, corners, std::back_inserter(inner));
+  if (inner.empty()) inner.assign(nodes.begin(), nodes.end());
   return inner;
 }
 

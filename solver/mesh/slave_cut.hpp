@@ -25,8 +25,8 @@ enum class HexaCut : std::uint8_t { pyramids, hexahedra };
 /// HexaCut::hexahedra.
 Mesh with_cut_slave_faces(const Mesh& mesh, std::span<const int> faces, HexaCut hexa_cut);
 
-/// The nodes inside a patch: on none of the edges (ends, of lines) that just one of its faces has. The one that
-/// all faces share comes first, the others are rising.
+/// The nodes inside a patch that its pressure belongs to, rising: the corners of its faces that are on none of the
+/// edges (ends, of lines) that just one of them has; of one whole face the node in its middle.
 std::vector<int> inner_nodes(const Mesh& mesh, std::span<const int> patch);
 
 }  // namespace comma::solver

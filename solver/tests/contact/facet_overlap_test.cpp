@@ -12,7 +12,7 @@ namespace facet_overlap_test {
 
 using Points = std::vector<Vector3d>;
 
-FacetGeometry facet(CellType type, const Points& points) { return {type, points, {}}; }
+FacetGeometry facet(CellType type, const Points& points) { return {type, points}; }
 
 /// A straight facet of any type on corners: mid-edge nodes and centre lie in between.
 Points straight(CellType type, Points corners) {
@@ -144,10 +144,9 @@ TEST_CASE("Whatever middle nodes do, a facet is covered once by others that tile
       for (const OverlapPoint& at :
            facet_overlap(facet(CellType::tria6, slave), facet(CellType::quad8, square)).points) {
         sum += at.weight;
-        // What they face lies on the slave's own normal.
         const Vector3d apart =
             place(facet(CellType::quad8, square), at.master) - place(facet(CellType::tria6, slave), at.slave);
-        CHECK(apart.cross(facet_normal(CellType::tria6, slave, at.slave)).norm() < 1e-9);
+        CHECK(apart.cross(normal_at(facet(CellType::tria6, slave), at.slave)).norm() < 1e-9);
       }
     }
   CHECK(sum == Approx(0.5).epsilon(1e-12));
@@ -179,6 +178,51 @@ TEST_CASE("On plane facets polynomials of the shape functions' degree are integr
     });
   }
   CHECK(pieces == Approx(ours).epsilon(1e-13));
+}
+
+TEST_CASE("What a bent slave faces is decided by corners, and the master's part by its own normals") {
+  // A roof z = -c x^2 over a plate at z = -1, whose edge is at x = 0.3: its foot on the plane of the slave's corners.
+  constexpr double bend = 0.2, edge = 0.3;
+  Points roof = straight(CellType::quad9, {{-1, -1, 0}, {-1, 1, 0}, {1, 1, 0}, {1, -1, 0}});
+  for (Vector3d& node : roof) node[2] = -bend * node[0] * node[0];
+  const Points plate = {{edge, -2, -1}, {3, -2, -1}, {3, 2, -1}, {edge, 2, -1}};
+  const FacetOverlap overlap = facet_overlap(facet(CellType::quad9, roof), facet(CellType::quad4, plate));
+  double covered = 0.0;
+  for (const OverlapPoint& at : overlap.points) covered += at.weight;
+  CHECK(covered == Approx(2.0 * (1.0 - edge)).epsilon(1e-14));
+  // The normal at x leans by 2 c x, and meets the plate as much farther as it is deep below.
+  const auto met = [&](double x) { return x - 2.0 * bend * x * (1.0 - bend * x * x); };
+  double faced = 0.0;
+  for (const FacePoint& at : overlap.master) faced += at.weight * facet_stretch(CellType::quad4, plate, at.xi, false);
+  CHECK(faced == Approx(2.0 * (met(1.0) - met(edge))).epsilon(1e-13));
+}
+
+TEST_CASE("What the slaves of a grid face of a master adds up to its own, with its shape functions") {
+  const Points master = {{0.1, 0.2, 0}, {1.7, 0.4, 0}, {1.5, 1.6, 0}, {0.3, 1.8, 0}};
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  const auto add = [&](CellType type, const Points& slave) {
+    for (const FacePoint& at : facet_overlap(facet(type, slave), facet(CellType::quad4, master)).master)
+      for (int i = 0; i < 4; ++i)
+        sum[i] += at.weight * facet_stretch(CellType::quad4, master, at.xi, false) *
+                  facet_shape(CellType::quad4, at.xi).values[static_cast<std::size_t>(i)];
+  };
+  const auto place = [](int i, int j) {
+    const double x = 0.4 * i, y = 0.4 * j;
+    const double skew = 0.05 * std::sin(2.0 * x) * std::sin(2.3 * y);
+    return Vector3d(x + skew, y - 0.7 * skew, 0.3);
+  };
+  for (int i = 0; i < 5; ++i)
+    for (int j = 0; j < 5; ++j) {
+      const Points square = {place(i, j), place(i, j + 1), place(i + 1, j + 1), place(i + 1, j)};
+      add(CellType::tria3, {square[0], square[1], square[2]});
+      add(CellType::tria3, {square[0], square[2], square[3]});
+    }
+  Eigen::Vector4d whole = Eigen::Vector4d::Zero();
+  for (const FacePoint& at : face_rule(CellType::quad4, ContactRule::gauss, 4))
+    for (int i = 0; i < 4; ++i)
+      whole[i] += at.weight * facet_stretch(CellType::quad4, master, at.xi, false) *
+                  facet_shape(CellType::quad4, at.xi).values[static_cast<std::size_t>(i)];
+  CHECK((sum - whole).norm() < 1e-13);
 }
 
 }  // namespace facet_overlap_test

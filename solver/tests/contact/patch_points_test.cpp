@@ -66,7 +66,7 @@ TEST_CASE("The mean gap of a patch is that of the surfaces, now and along its sh
   for (const ContactPoint& point : points) {
     CHECK(point.status == PairingStatus::paired);
     // Lengths of parabolas by Gauss's rule, in pieces and at once.
-    CHECK(point.weight == Approx(point.area).epsilon(1e-9));
+    CHECK(point.weight == Approx(point.area).epsilon(1e-8));
     // Parabolas over half an angle a leave the arc by up to R a^4 / 16, here 1.6e-4 of the bush's.
     CHECK(mean_gap(point, arcs.places) == Approx(0.5).margin(1.6e-4));
   }

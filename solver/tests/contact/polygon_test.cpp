@@ -50,6 +50,20 @@ TEST_CASE("The parts of a polygon on the squares of a grid add up to the whole")
   }
 }
 
+TEST_CASE("Triangles make up a polygon, whatever its corners begin with") {
+  std::mt19937 random(5);
+  for (int k = 0; k < 50; ++k) {
+    const Polygon polygon = random_convex(random);
+    const Polygon turned = about_mean(polygon);
+    double sum = 0.0;
+    for (const auto& [i, j, l] : triangles_of(turned.size())) sum += signed_area({turned[i], turned[j], turned[l]});
+    CHECK(sum == Approx(-signed_area(polygon)).epsilon(1e-14));  // clockwise
+  }
+  CHECK(about_mean({{1, 1}, {0, 1}, {1, 0}, {0, 0}}) == Polygon{{0, 0}, {0, 1}, {1, 1}, {1, 0}});
+  const std::vector<std::array<std::size_t, 3>> seven = {{0, 1, 2}, {2, 3, 4}, {4, 5, 6}, {6, 0, 2}, {2, 4, 6}};
+  CHECK(triangles_of(7) == seven);
+}
+
 TEST_CASE("Polygons that only touch have nothing in common") {
   const Polygon square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   CHECK(clipped({{1, 0}, {2, 0}, {2, 1}, {1, 1}}, square).empty());

@@ -100,9 +100,7 @@ TEST_CASE("Cutting a slave face fills the body, and touches none of its other fa
       }
       const std::size_t corners = static_cast<std::size_t>(corner_count(whole.cell_types[face]));
       CHECK(mesh.slave_patches.front().size() == corners);
-      // One node inside, and on quadratic faces the middles of the edges that go there.
-      const bool is_quadratic = node_count(whole.cell_types[face]) > static_cast<int>(corners);
-      CHECK(inner_nodes(mesh, mesh.slave_patches.front()).size() == (is_quadratic ? 1 + corners : 1));
+      CHECK(inner_nodes(mesh, mesh.slave_patches.front()).size() == 1);
     }
   }
 }
@@ -188,52 +186,6 @@ TEST_CASE("Faces with a node of their own inside stay whole, and become patches"
     REQUIRE(mesh.slave_patches == std::vector<std::vector<int>>{{1}});
     CHECK(inner_nodes(mesh, mesh.slave_patches.front()) == std::vector{mesh.cell(1).back()});
   }
-}
-
-TEST_CASE("The centre of a bent quadratic face and what leads to it lie on the surface", "[mesh]") {
-  // On z = x^2 + x y + y^2 the face is exact: its shape functions hold all quadratic polynomials.
-  const auto height = [](double x, double y) { return x * x + x * y + y * y; };
-  for (const CellType type : {CellType::tetra10, CellType::hexa20}) {
-    Mesh mesh = dressed(type);
-    // The facet in the plane of smallest z.
-    double lowest = 0.0;
-    for (const Point& node : mesh.nodes) lowest = std::min(lowest, node[2]);
-    int face = -1;
-    for (int cell = 1; cell < mesh.cell_count(); ++cell)
-      if (std::ranges::all_of(mesh.cell(cell),
-                              [&](int node) { return mesh.nodes[static_cast<std::size_t>(node)][2] == lowest; }))
-        face = cell;
-    REQUIRE(face > 0);
-    for (Point& node : mesh.nodes)
-      if (node[2] == lowest) node[2] += height(node[0], node[1]);
-    const Mesh cut = with_cut_slave_faces(mesh, std::vector{face}, HexaCut::pyramids);
-    for (const int node : inner_nodes(cut, cut.slave_patches.front())) {
-      const Point& at = cut.nodes[static_cast<std::size_t>(node)];
-      CHECK(at[2] == Approx(lowest + height(at[0], at[1])).margin(1e-14));
-    }
-  }
-}
-
-TEST_CASE("Inner nodes lie where the shape functions of what is cut carry them", "[mesh]") {
-  // Under x -> (x, y + x y z, z + x y) the trilinear map stays exact, and so do its faces.
-  const auto carried = [](const Point& at) -> Point {
-    return {at[0], at[1] + at[0] * at[1] * at[2] / 4, at[2] + at[0] * at[1] / 4};
-  };
-  const auto cut_first_face = [](Mesh mesh, HexaCut cut, auto&& move) {
-    const Mesh straight = with_cut_slave_faces(mesh, std::vector{1}, cut);
-    for (Point& node : mesh.nodes) node = move(node);
-    const Mesh moved = with_cut_slave_faces(mesh, std::vector{1}, cut);
-    for (int node = 0; node < moved.node_count(); ++node)
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        CHECK(moved.nodes[node][axis] == Approx(move(straight.nodes[node])[axis]).margin(1e-14));
-  };
-  cut_first_face(dressed(CellType::hexa8), HexaCut::hexahedra, carried);
-  // Quadratic cells hold all quadratic polynomials.
-  const auto bent = [](const Point& at) -> Point {
-    return {at[0] + at[1] * at[2] / 8, at[1] + at[0] * at[0] / 8, at[2] + at[0] * at[1] / 8 + at[2] * at[2] / 16};
-  };
-  for (const CellType type : {CellType::tetra10, CellType::penta15, CellType::hexa20})
-    cut_first_face(dressed(type), HexaCut::pyramids, bent);
 }
 
 TEST_CASE("Groups hold the pieces of their cells, the first under the old name", "[mesh]") {
