@@ -8,8 +8,8 @@
 
 #include <Eigen/Dense>
 
-#include "solver/mesh/reference_element.hpp"
 #include "solver/mesh/mesh.hpp"
+#include "solver/mesh/reference_element.hpp"
 #include "solver/model/model.hpp"
 
 namespace comma::solver {

@@ -14,10 +14,10 @@
 #include "solver/elements/element_batches.hpp"
 #include "solver/elements/element_block.hpp"
 #include "solver/elements/quadrature.hpp"
-#include "solver/mesh/reference_element.hpp"
 #include "solver/elements/translation.hpp"
 #include "solver/error.hpp"
 #include "solver/materials/elasticity.hpp"
+#include "solver/mesh/reference_element.hpp"
 #include "solver/model/stress_names.hpp"
 
 namespace comma::solver {

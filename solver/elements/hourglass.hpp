@@ -6,8 +6,8 @@
 
 #include <Eigen/Dense>
 
-#include "solver/mesh/reference_element.hpp"
 #include "solver/materials/elasticity.hpp"
+#include "solver/mesh/reference_element.hpp"
 
 namespace comma::solver {
 

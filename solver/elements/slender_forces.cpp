@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "solver/mesh/reference_element.hpp"
 #include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/reference_element.hpp"
 
 namespace comma::solver {
 

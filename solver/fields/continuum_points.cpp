@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "solver/elements/cell_material.hpp"
-#include "solver/mesh/reference_element.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/reference_element.hpp"
 
 namespace comma::solver {
 

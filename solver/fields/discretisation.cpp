@@ -1,11 +1,11 @@
 #include "solver/fields/discretisation.hpp"
 
 #include "solver/elements/quadrature.hpp"
-#include "solver/mesh/reference_element.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/continuum_points.hpp"
 #include "solver/fields/extrapolation.hpp"
 #include "solver/fields/field_algebra.hpp"
+#include "solver/mesh/reference_element.hpp"
 
 namespace comma::solver {
 

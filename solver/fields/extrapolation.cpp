@@ -8,8 +8,8 @@
 
 #include "solver/elements/beam_points.hpp"
 #include "solver/elements/quadrature.hpp"
-#include "solver/mesh/reference_element.hpp"
 #include "solver/error.hpp"
+#include "solver/mesh/reference_element.hpp"
 #include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
