@@ -197,19 +197,16 @@ void show_statistics(const Table& table, const Context& context) {
 class Join {
  public:
   Join(const Table& left, const Table& right, const Keywords& action)
-      : right_(right), result_(left), same_(same_key(action)) {
+      : right_(right), result_(left), same_(same_key(action)), restricted_(action.text("RESTREINT") == "OUI") {
     for (const std::string& name : action.texts("NOM_PARA")) {
       left_keys_.push_back(column_of(left, name, action));
       right_keys_.push_back(column_of(right, name, action));
     }
-    if (!left_keys_.empty() || !is_restricted(action))
+    if (!left_keys_.empty() || !restricted_)
       for (const std::string& name : right.columns) targets_.push_back(result_.add_column(name));
   }
 
-  static bool is_restricted(const Keywords& action) { return action.text("RESTREINT") == "OUI"; }
-
-  /// `restricted`: without rows that the first table has not.
-  Table run(bool restricted) {
+  Table run() {
     RowKeys unused(right_keys_, same_);
     for (std::size_t i = 0; i < right_.rows.size() && !right_keys_.empty(); ++i) unused.add(right_.rows[i], i);
     std::vector<bool> used(right_.rows.size(), false);
@@ -222,7 +219,7 @@ class Join {
       }
       rows.push_back(std::move(row));
     }
-    for (std::size_t i = 0; i < right_.rows.size() && !restricted; ++i) {
+    for (std::size_t i = 0; i < right_.rows.size() && !restricted_; ++i) {
       if (!used[i]) fill(rows.emplace_back(result_.columns.size()), i);
     }
     result_.rows = std::move(rows);
@@ -238,6 +235,7 @@ class Join {
   const Table& right_;
   Table result_;
   SameKey same_;
+  bool restricted_;  ///< without rows that the first table has not
   std::vector<int> left_keys_, right_keys_, targets_;
 };
 
@@ -247,8 +245,7 @@ Table acted(Table table, const Keywords& action, const Context& context) {
   if (operation == "EXTR") return with_columns(table, columns_of(table, action));
   if (operation == "SUPPRIME") return without_columns(table, columns_of(table, action));
   if (operation == "CALCUL") return reduce(table, action);
-  if (operation == "COMB")
-    return Join(table, action.data<TableConcept>("TABLE").table, action).run(Join::is_restricted(action));
+  if (operation == "COMB") return Join(table, action.data<TableConcept>("TABLE").table, action).run();
   if (operation == "RENOMME") rename(table, action);
   if (operation == "TRI") sort_rows(table, action);
   if (operation == "UNIQUE") keep_different(table, action);

@@ -16,8 +16,13 @@ constexpr double step_rounding = 1e-3;
 // Far more than anything could be computed at; a slip of the pen would fill the memory before that is noticed.
 constexpr double most_reals = 1e7;
 
-// How many steps an interval has, the last one included where it is shorter.
-int steps_of(const Keywords& interval, double length, const Context& context) {
+// Of an interval; the last one may be shorter.
+struct Steps {
+  int count;
+  double length;
+};
+
+Steps steps_of(const Keywords& interval, double length, const Context& context) {
   const bool counted = interval.has("NOMBRE");
   const double exact = counted ? static_cast<double>(interval.integer("NOMBRE")) : length / interval.real("PAS");
   if (!(exact <= most_reals)) {
@@ -26,7 +31,7 @@ int steps_of(const Keywords& interval, double length, const Context& context) {
                           interval.span_of(counted ? "NOMBRE" : "PAS"), "take fewer or longer steps");
   }
   const double steps = std::round(exact);
-  if (steps >= 1.0 && std::abs(exact - steps) <= step_rounding) return static_cast<int>(steps);
+  if (steps >= 1.0 && std::abs(exact - steps) <= step_rounding) return {static_cast<int>(steps), length / steps};
   if (exact < 1.0) {
     throw DiagnosticError("wrong-step", "DEFI_LIST_REEL: PAS is longer than the interval", interval.span_of("PAS"),
                           "take a shorter step, or give NOMBRE");
@@ -34,7 +39,7 @@ int steps_of(const Keywords& interval, double length, const Context& context) {
   context.diagnostics.alarm("short-step",
                             fmt::format("DEFI_LIST_REEL: the last step is {:.4g} of PAS", exact - std::floor(exact)),
                             interval.span_of("PAS"), "change PAS or JUSQU_A, or give NOMBRE");
-  return static_cast<int>(std::ceil(exact));
+  return {static_cast<int>(std::ceil(exact)), interval.real("PAS")};
 }
 
 std::vector<double> by_intervals(const Call& call, const Context& context) {
@@ -47,11 +52,8 @@ std::vector<double> by_intervals(const Call& call, const Context& context) {
                             fmt::format("DEFI_LIST_REEL: JUSQU_A = {} does not lie beyond {}", end, begin),
                             interval.span_of("JUSQU_A"), "values must rise");
     }
-    const int steps = steps_of(interval, end - begin, context);
-    const bool is_even =
-        !interval.has("PAS") || std::abs((end - begin) / interval.real("PAS") - steps) <= step_rounding;
-    const double step = is_even ? (end - begin) / steps : interval.real("PAS");
-    for (int i = 1; i < steps; ++i) values.push_back(begin + i * step);
+    const Steps steps = steps_of(interval, end - begin, context);
+    for (int i = 1; i < steps.count; ++i) values.push_back(begin + i * steps.length);
     values.push_back(end);
   }
   return values;
