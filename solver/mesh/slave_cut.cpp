@@ -183,7 +183,6 @@ class SlaveCutter {
   /// edges lead from, where the body's shape functions have them (Code_Aster 17.3).
   void add_middles_behind(const Cell& face, const Cell& body) {
     if (middles_.empty()) return;
-    const auto on_face = [&](int node) { return std::ranges::find(face.nodes, node) != face.nodes.end(); };
     const Vector3d centre = reference_centre(body, corners_of(face));
     for (const int corner : corners_of(face))
       for (const auto& edge : middle_edges(body.type)) {
@@ -191,7 +190,7 @@ class SlaveCutter {
         const int second = body.nodes[static_cast<std::size_t>(edge[1])];
         if (first != corner && second != corner) continue;
         const int other = first == corner ? second : first;
-        if (!on_face(other) && !middles_.contains(other)) add_middle(body, other, centre);
+        if (!middles_.contains(other)) add_middle(body, other, centre);
       }
   }
 
