@@ -89,11 +89,10 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
     if (relations_.update) offset = relations_.update(time, state);
     const bool is_linear = mixed_ && mixed_->is_linear();
     if (is_linear) correction.changes = mixed_->linearise(state.u, time);
-    bool is_whole = true;
-    searched_ = 1.0;
-    if (searches(iteration)) is_whole = search(before, external, offset, state) || !has_conditions();
-    if (knows_reactions()) take_reactions(balance, change, searched_);
-    if (knows_reactions() || !searches(iteration)) evaluate(state, external);
+    const double taken = searches(iteration) ? search(before, external, offset, state) : 1.0;
+    const bool is_whole = taken == 1.0 || !has_conditions();
+    if (knows_reactions()) take_reactions(balance, change, taken);
+    evaluate(state, external);
     const auto measure = distance(state);
     history.push_back(report(time, earlier + iteration, measure, correction.changes, state));
     if (observer_) observer_(history.back());
@@ -243,12 +242,11 @@ bool NewtonSolver::searches(int iteration) const {
          !(mixed_ && mixed_->is_linear());
 }
 
-/// Takes the unknowns from `before` along the correction that has brought them where they are, and evaluates the
-/// residual there. While the line is searched, loads that follow stay as they were (R5.03.01; ssnv122b tells), and
-/// contact forces as the correction has found them. Returns whether the correction was taken whole, so that conditions
-/// hold as it left them.
-bool NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset,
-                          NewtonState& state) {
+/// Takes the unknowns from `before` along the correction that has brought them where they are. While the line is
+/// searched, loads that follow stay as they were (R5.03.01; ssnv122b tells), and contact forces as the correction has
+/// found them. Returns the share of the correction that was taken: where it is 1, conditions hold as it left them.
+double NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& external,
+                            const Eigen::VectorXd& offset, NewtonState& state) {
   const Eigen::VectorXd step = state.reduced - before;
   const auto go = [&](double rho) {
     state.reduced = before + rho * step;
@@ -256,7 +254,7 @@ bool NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& 
   };
   if (has_conditions()) {
     evaluate(state, external);
-    if (distance(state).converged) return true;
+    if (distance(state).converged) return 1.0;
   }
   go(0.0);
   const Eigen::VectorXd held = loads_at(state.u, external);
@@ -269,9 +267,7 @@ bool NewtonSolver::search(const Eigen::VectorXd& before, const Eigen::VectorXd& 
   const double start = has_conditions() ? work(0.0) : step.dot(residual_);
   const double reached = search_line(*options_.line_search, start, work);
   go(reached);
-  searched_ = reached;
-  if (!knows_reactions()) evaluate(state, external);
-  return reached == 1.0;
+  return reached;
 }
 
 /// `state.reduced` is balanced by the present multipliers, and is brought to where the conditions hold. A compliance of

@@ -114,8 +114,8 @@ class NewtonSolver {
   bool is_satisfied(const Eigen::VectorXd& u) const;
   bool searches(int iteration) const;
   bool has_conditions() const { return mixed_ || row_multipliers_.size() > 0; }
-  bool search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset,
-              NewtonState& state);
+  double search(const Eigen::VectorXd& before, const Eigen::VectorXd& external, const Eigen::VectorXd& offset,
+                NewtonState& state);
   Correction correct_with_conditions(NewtonState& state);
   std::optional<double> settle_conditions(NewtonState& state);
   void throw_unless_solved(const ActiveSetSolution& solution) const;
@@ -173,7 +173,6 @@ class NewtonSolver {
   double applied_ = 0.0;     ///< the largest component of the external forces
   std::vector<int> eliminated_;
   Eigen::VectorXd reactions_;  ///< of the linear solves, at the unknowns that conditions hold; zero elsewhere
-  double searched_ = 1.0;      ///< how much of the last correction was taken
   int steps_ = 0;              ///< accepted so far
   TangentKind prediction_;
   TangentPolicy policy_;   ///< of this step

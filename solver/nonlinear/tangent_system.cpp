@@ -64,13 +64,11 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
   if (is_known(kind) || (elimination_.reduced_size() == 0 && is_constant())) return false;
   version_ = assembler_.stiffness_version();
   kind_ = kind;
-  const SymmetricMatrix whole = stiffness(u, kind);
-  if (!is_constant()) take_held_rows(whole, u);
-  if (elimination_.reduced_size() == 0) return false;
-  const SymmetricMatrix reduced = reduce(whole);
+  SymmetricMatrix reduced = assembled_anew(u, kind);
+  if (reduced.rows() == 0) return false;
   try {
     if (is_symmetric())
-      factorise(reduced);
+      factorise(std::move(reduced));
     else
       factorise(reduced, elimination_.reduce_skew(skew(u)));
   } catch (const Error& error) {
@@ -141,12 +139,20 @@ double TangentSystem::largest_term(const Eigen::VectorXd& u) const {
 }
 
 SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u, TangentKind kind) const {
+  const Stopwatch stopwatch(counters_.assembling);
   return reduce(stiffness(u, kind));
 }
 
-SymmetricMatrix TangentSystem::reduce(const SymmetricMatrix& whole) const {
+/// To be factorised: held_forces() are those of this one. Empty where nothing is free.
+SymmetricMatrix TangentSystem::assembled_anew(const Eigen::VectorXd& u, TangentKind kind) {
   const Stopwatch stopwatch(counters_.assembling);
-  SymmetricMatrix reduced = elimination_.reduce(whole);
+  SymmetricMatrix whole = stiffness(u, kind);
+  if (!is_constant()) take_held_rows(whole, u);
+  return elimination_.reduced_size() == 0 ? SymmetricMatrix() : reduce(std::move(whole));
+}
+
+SymmetricMatrix TangentSystem::reduce(SymmetricMatrix whole) const {
+  SymmetricMatrix reduced = elimination_.reduce(std::move(whole));
   for (const auto& [row, stiffness] : springs_) reduced.coeffRef(row, row) += stiffness;
   return reduced;
 }

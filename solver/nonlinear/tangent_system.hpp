@@ -133,7 +133,8 @@ class TangentSystem {
   SymmetricMatrix stiffness(const Eigen::VectorXd& u, TangentKind kind) const;
   std::string parts_on_springs(const RowMatrix* held) const;
   SymmetricMatrix assembled(const Eigen::VectorXd& u, TangentKind kind) const;
-  SymmetricMatrix reduce(const SymmetricMatrix& whole) const;
+  SymmetricMatrix assembled_anew(const Eigen::VectorXd& u, TangentKind kind);
+  SymmetricMatrix reduce(SymmetricMatrix whole) const;
   void take_held_rows(const SymmetricMatrix& whole, const Eigen::VectorXd& u);
   bool is_known(TangentKind kind) const;
   bool is_symmetric() const { return stays_symmetric_ || (assembler_.is_symmetric() && !followers_); }
