@@ -191,10 +191,10 @@ Vector2d bring_back(CellType type, const Vector2d& xi) {
   if (outside_distance(type, xi) == 0.0) return xi;
   if (family_of(type) == Family::line) return {std::clamp(xi[0], -1.0, 1.0), 0.0};
   if (family_of(type) == Family::quadrangle) return {std::clamp(xi[0], -1.0, 1.0), std::clamp(xi[1], -1.0, 1.0)};
-  if (xi[0] + xi[1] <= 1.0) return {std::max(0.0, xi[0]), std::max(0.0, xi[1])};
+  const Vector2d clamped(std::clamp(xi[0], 0.0, 1.0), std::clamp(xi[1], 0.0, 1.0));
+  if (xi[0] + xi[1] <= 1.0) return clamped;
   const double along = std::clamp(0.5 * (1.0 + xi[0] - xi[1]), 0.0, 1.0);  // foot on the slanted edge
   const Vector2d on_edge(along, 1.0 - along);
-  const Vector2d clamped(std::clamp(xi[0], 0.0, 1.0), std::clamp(xi[1], 0.0, 1.0));
   return clamped.sum() <= 1.0 && (clamped - xi).norm() < (on_edge - xi).norm() ? clamped : on_edge;
 }
 

@@ -1,5 +1,6 @@
 #include "solver/contact/facet.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -60,8 +61,24 @@ TEST_CASE("What falls outside a reference cell is measured and brought back to i
   CHECK((bring_back(CellType::tria3, {1, 1}) - Vector2d(0.5, 0.5)).norm() < 1e-15);
   CHECK(bring_back(CellType::tria3, {3, -1}) == Vector2d(1, 0));
   CHECK(bring_back(CellType::tria6, {-0.5, 0.4}) == Vector2d(0, 0.4));
-  for (const Vector2d& xi : {Vector2d(2, 2), Vector2d(-1, 3), Vector2d(0.9, 0.6), Vector2d(-1, -1)})
-    CHECK(outside_distance(CellType::tria3, bring_back(CellType::tria3, xi)) <= 1e-15);
+}
+
+TEST_CASE("Wherever a point lies beside a triangle, it is brought back to the nearest place inside") {
+  const auto distance_to_corner = [](const Vector2d& xi) {
+    return std::min({xi.norm(), (xi - Vector2d(1, 0)).norm(), (xi - Vector2d(0, 1)).norm()});
+  };
+  for (double x = -1.5; x <= 2.5; x += 0.0625) {
+    for (double y = -1.5; y <= 2.5; y += 0.0625) {
+      const Vector2d xi(x, y);
+      const Vector2d place = bring_back(CellType::tria3, xi);
+      CHECK(outside_distance(CellType::tria3, place) <= 1e-15);
+      CHECK((place - xi).norm() <= distance_to_corner(xi) + 1e-15);
+      CHECK((place - xi).norm() >= outside_distance(CellType::tria3, xi) / std::sqrt(2.0) - 1e-15);
+    }
+  }
+  // Beyond a corner, on the inner side of the slanted edge's line.
+  CHECK(bring_back(CellType::tria3, {1.25, -0.5}) == Vector2d(1, 0));
+  CHECK(bring_back(CellType::tria3, {-0.5, 1.25}) == Vector2d(0, 1));
 }
 
 TEST_CASE("Normals of edges that go round counter-clockwise, and of faces, point out") {
