@@ -184,15 +184,19 @@ class GibiReader {
     for (int i = 0; i < count; ++i) coordinates_.push_back(scan_.real("a coordinate"));
   }
 
-  /// Each place holds the coordinates and the density asked for there, which is no matter any more.
+  /// A place holds the coordinates and the density asked for there, which is no matter any more. Nodes are numbered as
+  /// the places are, not as the points: so they are in Code_Aster 17.3.
   void assemble() {
     if (places_.empty() || coordinates_.empty()) scan_.fail("the file holds no points");
     mesh_.dimension = dimension_;
+    used_places_ = places_;
+    std::ranges::sort(used_places_);
+    used_places_.erase(std::ranges::unique(used_places_).begin(), used_places_.end());
     const auto stride = static_cast<std::size_t>(dimension_) + 1;
-    for (const int place : places_) {
+    for (const int place : used_places_) {
       const std::size_t start = (static_cast<std::size_t>(place) - 1) * stride;
       if (start + stride > coordinates_.size())
-        scan_.fail(fmt::format("the coordinates of point {} are missing", mesh_.node_count() + 1));
+        scan_.fail(fmt::format("the coordinates of place {}, where a point lies, are missing", place));
       Point point{};
       std::copy_n(coordinates_.begin() + static_cast<std::ptrdiff_t>(start), dimension_, point.begin());
       mesh_.nodes.push_back(point);
@@ -210,9 +214,10 @@ class GibiReader {
   }
 
   int node_of(int point) const {
-    if (point > mesh_.node_count())
-      scan_.fail(fmt::format("the mesh has no point {}: it has {}", point, mesh_.node_count()));
-    return point - 1;
+    if (static_cast<std::size_t>(point) > places_.size())
+      scan_.fail(fmt::format("the mesh has no point {}: it has {}", point, places_.size()));
+    const int place = places_[static_cast<std::size_t>(point) - 1];
+    return static_cast<int>(std::ranges::lower_bound(used_places_, place) - used_places_.begin());
   }
 
   /// Objects that no name leads to (the edges of faces, say) make no cells, and a cell that several objects hold is one
@@ -272,7 +277,8 @@ class GibiReader {
   std::vector<GibiObject> objects_;
   std::vector<NamedObject> mesh_names_;
   std::vector<NamedObject> point_names_;
-  std::vector<int> places_;
+  std::vector<int> places_;       ///< of the points, from 1
+  std::vector<int> used_places_;  ///< rising: one a node
   std::vector<double> coordinates_;
   std::map<std::vector<int>, int> cell_index_;  ///< by sorted nodes and type
   Mesh mesh_;

@@ -28,17 +28,6 @@ const std::vector<GmshType>& gmsh_types() {
   return table;
 }
 
-CellType without_inner_nodes(CellType type) {
-  switch (type) {
-    case quad9:
-      return quad8;
-    case hexa27:
-      return hexa20;
-    case penta18:
-      return penta15;
-    default:
-      return type;
-  }
-}
+CellType kept_type(CellType type) { return type == quad9 ? quad8 : type; }
 
 }  // namespace comma::solver

@@ -15,10 +15,9 @@ struct GmshType {
   std::vector<int> order = {};
 };
 
-/// What LIRE_MAILLAGE makes of a cell: Code_Aster leaves the nodes inside faces and cells out (QUAD9 becomes QUAD8:
-/// ssnp152g tells; HEXA27 and PENTA18, whose faces are such, HEXA20 and PENTA15). The first nodes of either are the
-/// same.
-CellType without_inner_nodes(CellType type);
+/// What LIRE_MAILLAGE makes of a cell: Code_Aster 17.3 leaves the node inside a QUAD9 out, which becomes a QUAD8 of its
+/// first nodes, and keeps those of HEXA27 and PENTA18.
+CellType kept_type(CellType type);
 
 /// All that both know.
 const std::vector<GmshType>& gmsh_types();

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <unordered_map>
 #include <vector>
 
@@ -116,7 +117,6 @@ class GmshReader {
     if (!node_index_.emplace(number, mesh_.node_count()).second)
       scan_.fail(fmt::format("node {} stands twice in the file", number));
     mesh_.nodes.push_back(at);
-    mesh_.node_names.push_back(fmt::format("N{}", number));
   }
 
   Point read_point() { return {scan_.real("a coordinate"), scan_.real("a coordinate"), scan_.real("a coordinate")}; }
@@ -190,18 +190,9 @@ class GmshReader {
     }
     std::vector<int> ordered = nodes_;
     for (std::size_t i = 0; i < type.order.size(); ++i) ordered[i] = nodes_[static_cast<std::size_t>(type.order[i])];
-    const CellType kept = without_inner_nodes(type.type);
+    const CellType kept = kept_type(type.type);
     ordered.resize(static_cast<std::size_t>(node_count(kept)));
-    const int cell = mesh_.add_cell(kept, ordered);
-    mesh_.cell_names.push_back(fmt::format("M{}", number));
-    for (const int group : groups) add_to_groups(cell, dimension(type.type), group);
-  }
-
-  void add_to_groups(int cell, int dimension, int group) {
-    if (group == 0) return;  // the cell belongs to no physical group
-    mesh_.cell_groups[fmt::format("GM{}", group)].push_back(cell);
-    const auto named = names_.find({dimension, group});
-    if (named != names_.end()) mesh_.cell_groups[named->second].push_back(cell);
+    cells_.push_back({type.number, kept, std::move(ordered), dimension(type.type), groups});
   }
 
   void read_cells_1() {
@@ -257,18 +248,66 @@ class GmshReader {
     close("$Elements");
   }
 
-  void finish() {
-    if (mesh_.nodes.empty()) scan_.fail("the file holds no nodes");
-    settle_in_plane(mesh_);
-    for (auto& [name, cells] : mesh_.cell_groups) {  // a name of two physical groups, or GM<i> of two dimensions
-      std::ranges::sort(cells);
-      cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+  /// Cells stand type by type, in the order of Gmsh's numbers; groups list them as the file does.
+  void add_cells() {
+    std::vector<std::size_t> order(cells_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::stable_sort(order, {}, [&](std::size_t cell) { return cells_[cell].number; });
+    std::vector<int> indices(cells_.size());
+    for (const std::size_t cell : order) indices[cell] = mesh_.add_cell(cells_[cell].type, cells_[cell].nodes);
+    for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
+      for (const int group : cells_[cell].groups) add_to_groups(indices[cell], cells_[cell].dimension, group);
     }
   }
+
+  void add_to_groups(int cell, int dimension, int group) {
+    const auto add = [&](const std::string& name) {  // once: two physical groups may have one name
+      std::vector<int>& members = mesh_.cell_groups[name];
+      if (members.empty() || members.back() != cell) members.push_back(cell);
+    };
+    add(fmt::format("GM{}", group));
+    const auto named = names_.find({dimension, group});
+    if (named != names_.end()) add(named->second);
+  }
+
+  /// Nodes that no cell has are none of the mesh: centres of circles, centres of QUAD9.
+  void drop_unused_nodes() {
+    std::vector<int> number(mesh_.nodes.size(), 0);
+    for (const Cell& cell : cells_) {
+      for (const int node : cell.nodes) number[static_cast<std::size_t>(node)] = 1;
+    }
+    int count = 0;
+    for (std::size_t node = 0; node < number.size(); ++node) {
+      if (number[node] == 0) continue;
+      mesh_.nodes[static_cast<std::size_t>(count)] = mesh_.nodes[node];
+      number[node] = count++;
+    }
+    mesh_.nodes.resize(static_cast<std::size_t>(count));
+    for (Cell& cell : cells_) {
+      for (int& node : cell.nodes) node = number[static_cast<std::size_t>(node)];
+    }
+  }
+
+  void finish() {
+    if (mesh_.nodes.empty()) scan_.fail("the file holds no nodes");
+    if (cells_.empty()) scan_.fail("the file holds no cells");
+    drop_unused_nodes();
+    add_cells();
+    settle_in_plane(mesh_);
+  }
+
+  struct Cell {
+    int number;  ///< of its type, Gmsh's
+    CellType type;
+    std::vector<int> nodes;
+    int dimension;
+    std::vector<int> groups;
+  };
 
   TextScanner scan_;
   double version_ = 1.0;
   Mesh mesh_;
+  std::vector<Cell> cells_;  ///< as the file lists them
   std::unordered_map<int, int> node_index_;
   std::map<std::pair<int, int>, std::string> names_;               ///< by dimension and number
   std::map<std::pair<int, int>, std::vector<int>> entity_groups_;  ///< by dimension and number

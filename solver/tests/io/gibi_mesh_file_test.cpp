@@ -71,7 +71,7 @@ TEST_CASE("a mesh of Cast3M is read with its named objects", "[io]") {
   const Mesh mesh = parse_gibi_mesh(plate, "plate.mgib");
   CHECK(mesh.dimension == 2);
   CHECK(mesh.node_count() == 13);
-  CHECK(mesh.nodes[11] == Point{2, 1, 0});  // its coordinates stand last
+  CHECK(mesh.nodes[12] == Point{2, 1, 0});  // the point before the last: its coordinates stand last
   CHECK(mesh.cell_types == std::vector<CellType>{CellType::quad8, CellType::quad8, CellType::seg3, CellType::seg3});
   CHECK(Group(mesh.cell(0).begin(), mesh.cell(0).end()) == Group{0, 2, 4, 6, 1, 3, 5, 7});
   CHECK(Group(mesh.cell(3).begin(), mesh.cell(3).end()) == Group{2, 9, 8});
@@ -81,6 +81,22 @@ TEST_CASE("a mesh of Cast3M is read with its named objects", "[io]") {
   CHECK(mesh.node_group("ENDS") == Group{0, 9});
   CHECK(mesh.node_group("ORIGIN") == Group{0});
   CHECK_FALSE(mesh.cell_groups.contains("ENDS"));
+}
+
+TEST_CASE("nodes of a mesh of Cast3M are numbered as their places are, without those that no point takes", "[io]") {
+  std::string text = plate;
+  const std::string points = "       1       2       3       4       5       6       7       8       9      10\n"
+                             "      11      13      12";
+  const std::string turned = "      14      13      12      11      10       9       8       7       6       5\n"
+                             "       4       2       3";
+  text.replace(text.find(points, text.find("PILE NUMERO  32")), points.size(), turned);
+  text.replace(text.find("      39\n"), 9, "      42\n -1.0 -1.0 0.0\n");
+  const Mesh mesh = parse_gibi_mesh(text, "plate.mgib");
+  REQUIRE(mesh.node_count() == 13);
+  CHECK(mesh.nodes[0] == Point{0, 0, 0});
+  CHECK(mesh.nodes[12] == Point{2, 1, 0});
+  CHECK(mesh.node_group("ORIGIN") == Group{12});
+  CHECK(mesh.node_group("ENDS") == Group{12, 3});
 }
 
 TEST_CASE("a hexahedron of Cast3M goes round its levels, then over its faces", "[io]") {
@@ -125,7 +141,7 @@ TEST_CASE("a damaged file of Cast3M is an error with its place", "[io]") {
   CHECK_THROWS_WITH(parse_gibi_mesh(with("       2       3\n", "       2       9\n"), "plate.mgib"),
                     Catch::Contains("not between 1 and 7"));
   CHECK_THROWS_WITH(parse_gibi_mesh(with("      11      13      12", "      11      14      12"), "plate.mgib"),
-                    Catch::Contains("coordinates of point 12 are missing"));
+                    Catch::Contains("coordinates of place 14, where a point lies, are missing"));
   CHECK_THROWS_WITH(parse_gibi_mesh(with("      1      10\n", "      1      14\n"), "plate.mgib"),
                     Catch::Contains("no point 14"));
   CHECK_THROWS_WITH(parse_gibi_mesh(with("DIMENSION   2", "DIMENSION   4"), "plate.mgib"),

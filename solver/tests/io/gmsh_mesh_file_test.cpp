@@ -125,8 +125,8 @@ TEST_CASE("the same mesh comes out of every version of the format", "[io]") {
     const Mesh mesh = parse_gmsh_mesh(text, "plate.msh");
     CHECK(mesh.dimension == 2);
     CHECK(mesh.nodes == std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}});
-    CHECK(mesh.node_name(2) == "N8");
-    CHECK(mesh.cell_name(2) == "M4");
+    CHECK(mesh.node_name(2) == "N3");
+    CHECK(mesh.cell_name(2) == "M3");
     CHECK(mesh.connectivity == Group{0, 1, 0, 1, 2, 0, 2, 3});
     CHECK(mesh.cell_group("GM20") == Group{0});
     CHECK(mesh.cell_group("GM10") == Group{1, 2});
@@ -135,6 +135,33 @@ TEST_CASE("the same mesh comes out of every version of the format", "[io]") {
     CHECK(parse_gmsh_mesh(text, "plate.msh").cell_group("Lower edge") == Group{0});
     CHECK(parse_gmsh_mesh(text, "plate.msh").cell_group("PLATE") == Group{1, 2});
   }
+}
+
+TEST_CASE("cells of Gmsh stand type by type, and nodes that no cell has are left out", "[io]") {
+  const Mesh mesh = parse_gmsh_mesh(R"($NOD
+6
+9 0 0 0
+7 5 5 0
+3 1 0 0
+4 1 1 0
+12 0 1 0
+5 2 0.5 0
+$ENDNOD
+$ELM
+4
+8 3 10 1 4 9 3 4 12
+2 15 0 1 1 9
+3 2 10 1 3 3 5 4
+5 1 20 1 2 9 3
+$ENDELM
+)",
+                                    "plate.msh");
+  CHECK(mesh.nodes == std::vector<Point>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0.5, 0}});
+  CHECK(mesh.cell_types == std::vector<CellType>{CellType::seg2, CellType::tria3, CellType::quad4, CellType::poi1});
+  CHECK(mesh.connectivity == Group{0, 1, 1, 4, 2, 0, 1, 2, 3, 0});
+  CHECK(mesh.cell_group("GM10") == Group{2, 1});
+  CHECK(mesh.cell_group("GM20") == Group{0});
+  CHECK(mesh.cell_group("GM0") == Group{3});
 }
 
 TEST_CASE("quadratic cells of Gmsh get Code_Aster's order of nodes", "[io]") {
@@ -159,23 +186,26 @@ TEST_CASE("quadratic cells of Gmsh get Code_Aster's order of nodes", "[io]") {
   }
 }
 
-TEST_CASE("nodes inside faces and cells of Gmsh belong to no cell", "[io]") {
-  // The edges are Gmsh's own; where inner nodes lie plays no part.
+TEST_CASE("the node inside a QUAD9 of Gmsh is left out, those inside HEXA27 and PENTA18 are kept", "[io]") {
+  // The edges are Gmsh's own; the inner nodes of this file lie elsewhere.
   const std::vector<std::array<int, 2>> square = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}};
   const std::vector<std::array<int, 2>> wedge = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5},
                                                  {3, 4}, {3, 5}, {4, 5}, {0, 4}, {0, 5}, {1, 5}};
   std::vector<std::array<int, 2>> cube = {{0, 1}, {0, 3}, {0, 4}, {1, 2}, {1, 5}, {2, 3},
                                           {2, 6}, {3, 7}, {4, 5}, {4, 7}, {5, 6}, {6, 7}};
   cube.resize(19, {0, 6});
-  const std::array<std::pair<std::string, CellType>, 3> cells = {
-      {{single_cell(10, CellType::quad9, square), CellType::quad8},
-       {single_cell(13, CellType::penta18, wedge), CellType::penta15},
-       {single_cell(12, CellType::hexa27, cube), CellType::hexa20}}};
-  for (const auto& [text, type] : cells) {
+  struct Read {
+    std::string text;
+    CellType type, first_nodes;
+  };
+  const std::array<Read, 3> cells = {{{single_cell(10, CellType::quad9, square), CellType::quad8, CellType::quad8},
+                                      {single_cell(13, CellType::penta18, wedge), CellType::penta18, CellType::penta15},
+                                      {single_cell(12, CellType::hexa27, cube), CellType::hexa27, CellType::hexa20}}};
+  for (const auto& [text, type, first_nodes] : cells) {
     const Mesh mesh = parse_gmsh_mesh(text, "cell.msh");
     REQUIRE(mesh.cell_types[0] == type);
-    CHECK(mesh.node_count() > node_count(type));
-    const auto expected = reference_points(type);
+    CHECK(mesh.node_count() == node_count(type));
+    const auto expected = reference_points(first_nodes);
     for (std::size_t i = 0; i < expected.size(); ++i) {
       const Point& node = mesh.nodes[static_cast<std::size_t>(mesh.cell(0)[i])];
       for (int axis = 0; axis < 3; ++axis) CHECK(node[axis] == Approx(expected[i][axis]).margin(1e-15));
