@@ -58,7 +58,7 @@ struct GibiObject {
   std::vector<int> parts;  ///< objects it consists of, from 1
   CellType type = poi1;
   std::vector<std::vector<int>> cells;  ///< points of each cell, from 1
-  std::vector<int> indices;             ///< of the cells in the mesh; points make no cells
+  std::vector<int> indices;             ///< of the cells in the mesh
 };
 
 struct NamedObject {
@@ -220,14 +220,12 @@ class GibiReader {
     return static_cast<int>(std::ranges::lower_bound(used_places_, place) - used_places_.begin());
   }
 
-  /// Objects that no name leads to (the edges of faces, say) make no cells, and a cell that several objects hold is one
-  /// cell.
+  /// Objects that no name leads to (the edges of faces, say) make no cells, and a cell that several objects hold, its
+  /// nodes in the same order, is one cell.
   void add_cells(GibiObject& object) {
     for (std::vector<int>& cell : object.cells) {
       for (int& point : cell) point = node_of(point);
-      if (object.type == poi1) continue;
       std::vector<int> key = cell;
-      std::ranges::sort(key);
       key.push_back(static_cast<int>(object.type));
       const auto [known, is_new] = cell_index_.try_emplace(std::move(key), mesh_.cell_count());
       if (is_new) mesh_.add_cell(object.type, cell);
@@ -242,17 +240,12 @@ class GibiReader {
 
   void add_group(const NamedObject& named) {
     std::vector<int> cells;
-    std::vector<int> nodes;
     for (const int number : elementary(named.object)) {
       const GibiObject& object = objects_[static_cast<std::size_t>(number) - 1];
       cells.insert(cells.end(), object.indices.begin(), object.indices.end());
-      if (object.type != poi1) continue;
-      for (const auto& point : object.cells) nodes.push_back(point.front());
     }
-    keep_first(nodes);
     keep_first(cells);
     if (!cells.empty()) mesh_.cell_groups[named.name] = std::move(cells);
-    if (!nodes.empty()) mesh_.node_groups[named.name] = std::move(nodes);
   }
 
   /// The objects of cells that an object consists of, each once, in its order.
@@ -280,7 +273,7 @@ class GibiReader {
   std::vector<int> places_;       ///< of the points, from 1
   std::vector<int> used_places_;  ///< rising: one a node
   std::vector<double> coordinates_;
-  std::map<std::vector<int>, int> cell_index_;  ///< by sorted nodes and type
+  std::map<std::vector<int>, int> cell_index_;  ///< by nodes and type
   Mesh mesh_;
 };
 

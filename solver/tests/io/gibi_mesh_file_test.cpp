@@ -72,23 +72,35 @@ TEST_CASE("a mesh of Cast3M is read with its named objects", "[io]") {
   CHECK(mesh.dimension == 2);
   CHECK(mesh.node_count() == 13);
   CHECK(mesh.nodes[12] == Point{2, 1, 0});  // the point before the last: its coordinates stand last
-  CHECK(mesh.cell_types == std::vector<CellType>{CellType::quad8, CellType::quad8, CellType::seg3, CellType::seg3});
+  CHECK(mesh.cell_types == std::vector<CellType>{CellType::quad8, CellType::quad8, CellType::seg3, CellType::seg3,
+                                                 CellType::poi1, CellType::poi1});
   CHECK(Group(mesh.cell(0).begin(), mesh.cell(0).end()) == Group{0, 2, 4, 6, 1, 3, 5, 7});
   CHECK(Group(mesh.cell(3).begin(), mesh.cell(3).end()) == Group{2, 9, 8});
   CHECK(mesh.cell_group("PLATE") == Group{0, 1});
   CHECK(mesh.cell_group("AGAIN") == Group{1});
   CHECK(mesh.cell_group("LOWER") == Group{2, 3});
-  CHECK(mesh.node_group("ENDS") == Group{0, 9});
+  CHECK(mesh.cell_group("ENDS") == Group{4, 5});
   CHECK(mesh.node_group("ORIGIN") == Group{0});
-  CHECK_FALSE(mesh.cell_groups.contains("ENDS"));
+  CHECK_FALSE(mesh.node_groups.contains("ENDS"));
+}
+
+TEST_CASE("a cell of Cast3M whose nodes stand in another order is another cell", "[io]") {
+  std::string text = plate;
+  const std::string cell = "       3       9      10      11      12      13       5       4";
+  text.replace(text.rfind(cell), cell.size(), "      10      11      12      13       5       4       3       9");
+  const Mesh mesh = parse_gibi_mesh(text, "plate.mgib");
+  CHECK(mesh.cell_count() == 7);
+  CHECK(mesh.cell_group("AGAIN") == Group{6});
 }
 
 TEST_CASE("nodes of a mesh of Cast3M are numbered as their places are, without those that no point takes", "[io]") {
   std::string text = plate;
-  const std::string points = "       1       2       3       4       5       6       7       8       9      10\n"
-                             "      11      13      12";
-  const std::string turned = "      14      13      12      11      10       9       8       7       6       5\n"
-                             "       4       2       3";
+  const std::string points =
+      "       1       2       3       4       5       6       7       8       9      10\n"
+      "      11      13      12";
+  const std::string turned =
+      "      14      13      12      11      10       9       8       7       6       5\n"
+      "       4       2       3";
   text.replace(text.find(points, text.find("PILE NUMERO  32")), points.size(), turned);
   text.replace(text.find("      39\n"), 9, "      42\n -1.0 -1.0 0.0\n");
   const Mesh mesh = parse_gibi_mesh(text, "plate.mgib");
@@ -96,7 +108,7 @@ TEST_CASE("nodes of a mesh of Cast3M are numbered as their places are, without t
   CHECK(mesh.nodes[0] == Point{0, 0, 0});
   CHECK(mesh.nodes[12] == Point{2, 1, 0});
   CHECK(mesh.node_group("ORIGIN") == Group{12});
-  CHECK(mesh.node_group("ENDS") == Group{12, 3});
+  CHECK(Group(mesh.cell(4).begin(), mesh.cell(4).end()) == Group{12});
 }
 
 TEST_CASE("a hexahedron of Cast3M goes round its levels, then over its faces", "[io]") {
