@@ -213,6 +213,17 @@ void node_groups_of_cell_groups(const Keywords& creation, const solver::Mesh& me
     add_group(target, names[i], nodes_of_cells(creation, cells[i], mesh), creation);
 }
 
+// Of several in GROUP_NO the first, as Code_Aster 17.3 does.
+std::vector<int> first_group(const Keywords& creation, const solver::Mesh& mesh, const Context& context) {
+  const auto names = creation.texts("GROUP_NO");
+  if (names.size() > 1) {
+    context.diagnostics.alarm(
+        "first-group", fmt::format("DEFI_GROUP: {} takes the nodes of {} alone", creation.texts("NOM")[0], names[0]),
+        creation.span_of("GROUP_NO"), "UNION takes those of several groups");
+  }
+  return named_node_groups(creation, "GROUP_NO", mesh).front();
+}
+
 void make_node_group(const Keywords& creation, solver::Mesh& mesh, const Context& context) {
   const Target target{mesh.node_groups, "nodes", context};
   if (creation.given("TOUT_GROUP_MA")) {
@@ -237,8 +248,8 @@ void make_node_group(const Keywords& creation, solver::Mesh& mesh, const Context
   if (auto combined = combination(creation, mesh, named_node_groups))
     return add_group(target, names[0], *std::move(combined), creation);
   if (creation.given("OPTION")) return add_group(target, names[0], nodes_of_option(creation, mesh), creation);
-  const auto nodes = selected_nodes(creation, mesh);
-  add_group(target, names[0], creation.given("GROUP_NO") ? part_of(nodes, creation) : nodes, creation);
+  if (!creation.given("GROUP_NO")) return add_group(target, names[0], selected_nodes(creation, mesh), creation);
+  add_group(target, names[0], part_of(first_group(creation, mesh, context), creation), creation);
 }
 
 // A group need not be there, so that a loop can remove and make it in each turn (U4.22.01); one that nothing makes may
