@@ -4,6 +4,7 @@
 #include <array>
 #include <iterator>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 #include <unordered_map>
@@ -103,10 +104,7 @@ class SlaveCutter {
     }
     for (const int face : kept) result_.slave_patches.push_back(family(face));
     for (auto& [name, members] : result_.cell_groups) members = with_pieces(members);
-    result_.cell_types.clear();
-    result_.connectivity.clear();
-    result_.cell_starts = {0};
-    for (const Cell& each : cells_) result_.add_cell(each.type, each.nodes);
+    number_cells();
     return std::move(result_);
   }
 
@@ -118,6 +116,27 @@ class SlaveCutter {
     result_.nodes.push_back({position[0], position[1], position[2]});
     node_names_.add();
     return result_.node_count() - 1;
+  }
+
+  /// Pieces follow one another in the place of what was cut.
+  void number_cells() {
+    std::vector<int> sources(static_cast<std::size_t>(source_.cell_count()));
+    std::iota(sources.begin(), sources.end(), 0);
+    std::vector<int> number(cells_.size());
+    std::vector<std::string> names;
+    result_.cell_types.clear();
+    result_.connectivity.clear();
+    result_.cell_starts = {0};
+    for (const int each : with_pieces(sources)) {
+      number[static_cast<std::size_t>(each)] = result_.add_cell(cell(each).type, cell(each).nodes);
+      if (!result_.cell_names.empty()) names.push_back(result_.cell_names[static_cast<std::size_t>(each)]);
+    }
+    result_.cell_names = std::move(names);
+    const auto renumber = [&](std::vector<int>& cells) {
+      for (int& each : cells) each = number[static_cast<std::size_t>(each)];
+    };
+    for (auto& [name, members] : result_.cell_groups) renumber(members);
+    for (std::vector<int>& patch : result_.slave_patches) renumber(patch);
   }
 
   void index(int face_dimension) {
@@ -154,11 +173,11 @@ class SlaveCutter {
     std::vector<Cell> body_pieces;
     if (around_inner) {
       prepare_inner(face, body);
-      body_pieces = by_hexahedra ? hexahedra(body, key) : quadrangles_behind(body, key);
+      body_pieces = by_hexahedra ? hexahedra(cell(face), cell(body)) : quadrangles_behind(body, key);
     } else {
       prepare_centre(cell(face));
       add_middles_behind(cell(face), cell(body));
-      body_pieces = cones(facets_of(cell(body)), key, body);
+      body_pieces = pieces_of_body(body, face, key);
     }
     for (const int skin : skins_.at(key))
       replace(skin, around_inner ? pieces_around_inner(cell(skin)) : pieces_of_face(skin, key));
@@ -235,6 +254,22 @@ class SlaveCutter {
     return pieces;
   }
 
+  /// Their order, and that of their nodes, is that of Code_Aster 17.3 for TRIA3 and TETRA4.
+  std::vector<Cell> pieces_of_body(int body, int face, const FacetKey& key) {
+    if (cell(body).type == tria3) {
+      const std::vector<int> corner = corners_from_edge(body, key);
+      return {{tria3, {corner[0], centre_, corner[2]}}, {tria3, {centre_, corner[1], corner[2]}}};
+    }
+    if (cell(body).type != tetra4) return cones(facets_of(cell(body)), key, body);
+    const std::vector<int>& base = cell(face).nodes;
+    int apex = -1;
+    for (const int node : cell(body).nodes)
+      if (std::ranges::find(base, node) == base.end()) apex = node;
+    std::vector<Cell> pieces;
+    for (std::size_t i = 0; i < 3; ++i) pieces.push_back({tetra4, {apex, base[i], base[(i + 1) % 3], centre_}});
+    return pieces;
+  }
+
   std::vector<Cell> pieces_of_face(int face, const FacetKey& key) {
     const Cell& whole = cell(face);
     if (dimension(whole.type) > 1) return cones(facets_of(whole), key, face);
@@ -288,48 +323,53 @@ class SlaveCutter {
   std::vector<Cell> pieces_around_inner(const Cell& face) const {
     const auto inner = [&](std::size_t i) { return inner_.at(face.nodes[i]); };
     if (face.type == seg2)
-      return {{seg2, {inner(0), inner(1)}}, {seg2, {face.nodes[0], inner(0)}}, {seg2, {inner(1), face.nodes[1]}}};
-    std::vector<Cell> pieces = {{quad4, {inner(0), inner(1), inner(2), inner(3)}}};
+      return {{seg2, {face.nodes[0], inner(0)}}, {seg2, {inner(0), inner(1)}}, {seg2, {inner(1), face.nodes[1]}}};
+    std::vector<Cell> pieces;
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t j = (i + 1) % 4;
       pieces.push_back({quad4, {face.nodes[i], face.nodes[j], inner(j), inner(i)}});
     }
+    pieces.push_back({quad4, {inner(0), inner(1), inner(2), inner(3)}});
     return pieces;
+  }
+
+  /// The corners of a triangle or quadrangle, those on its slave edge first.
+  std::vector<int> corners_from_edge(int body, const FacetKey& key) const {
+    const auto own = corners_of(cell(body));
+    std::vector<int> corner(own.begin(), own.end());
+    while (key_of(std::span(corner).first(2)) != key) std::ranges::rotate(corner, corner.begin() + 1);
+    return corner;
   }
 
   /// Four: one below the middle third of the face, half as deep as the body, and one between it and each of the body's
   /// other sides.
-  std::vector<Cell> quadrangles_behind(int body, const FacetKey& key) {
-    std::vector<int> corner = cell(body).nodes;  // the first two on the face
-    while (key_of(std::span(corner).first(2)) != key) std::ranges::rotate(corner, corner.begin() + 1);
+  std::vector<Cell> quadrangles_behind(int body, const FacetKey& key) const {
+    const std::vector<int> corner = corners_from_edge(body, key);
     const std::array<int, 2> shallow = {inner_.at(corner[0]), inner_.at(corner[1])};
     const std::array<int, 2> deep = {deep_.at(corner[0]), deep_.at(corner[1])};
-    return {{quad4, {shallow[0], shallow[1], deep[1], deep[0]}},
-            {quad4, {corner[0], shallow[0], deep[0], corner[3]}},
+    return {{quad4, {corner[0], shallow[0], deep[0], corner[3]}},
+            {quad4, {shallow[0], shallow[1], deep[1], deep[0]}},
             {quad4, {shallow[1], corner[1], corner[2], deep[1]}},
-            {quad4, {deep[0], deep[1], corner[2], corner[3]}}};
+            {quad4, {corner[2], corner[3], deep[0], deep[1]}}};
   }
 
-  /// One hexahedron under the inner square, one between it and each of the other facets.
-  std::vector<Cell> hexahedra(int body, const FacetKey& key) {
-    Cell face;
-    for (const Cell& facet : facets_of(cell(body)))
-      if (key_of(corners_of(facet)) == key) face = facet;
+  /// One hexahedron between the inner square and each side of the face, one below it that reaches to the facet
+  /// opposite, one between.
+  std::vector<Cell> hexahedra(const Cell& face, const Cell& body) const {
     std::array<int, 4> top{}, base{}, shallow{}, deep{};  // corners of the face, those below them, and the inner ones
     for (std::size_t i = 0; i < 4; ++i) {
       top[i] = face.nodes[i];
-      base[i] = below(cell(body), face, top[i]);
+      base[i] = below(body, face, top[i]);
       shallow[i] = inner_.at(top[i]);
       deep[i] = deep_.at(top[i]);
     }
-    const auto hexahedron = [](const std::array<int, 4>& low, const std::array<int, 4>& high) {
-      return Cell{hexa8, {low[0], low[1], low[2], low[3], high[0], high[1], high[2], high[3]}};
-    };
-    std::vector<Cell> pieces = {hexahedron(deep, shallow), hexahedron(base, deep)};
+    std::vector<Cell> pieces;
     for (std::size_t i = 0; i < 4; ++i) {
       const std::size_t j = (i + 1) % 4;
-      pieces.push_back(hexahedron({base[i], base[j], deep[j], deep[i]}, {top[i], top[j], shallow[j], shallow[i]}));
+      pieces.push_back({hexa8, {shallow[i], shallow[j], top[j], top[i], deep[i], deep[j], base[j], base[i]}});
     }
+    pieces.push_back({hexa8, {deep[3], deep[2], deep[1], deep[0], base[3], base[2], base[1], base[0]}});
+    pieces.push_back({hexa8, {shallow[3], shallow[2], shallow[1], shallow[0], deep[3], deep[2], deep[1], deep[0]}});
     return pieces;
   }
 

@@ -90,9 +90,16 @@ TEST_CASE("Cutting a slave face fills the body, and touches none of its other fa
       CHECK(volume(mesh) == Approx(expected).epsilon(1e-14));
       CHECK(is_closed(mesh));
       CHECK(is_straight(mesh));
-      for (int other = 1; other < whole.cell_count(); ++other)
-        if (other != face) CHECK(std::ranges::equal(mesh.cell(other), whole.cell(other)));
       REQUIRE(mesh.slave_patches.size() == 1);
+      // The pieces of the body come first, those of the face stand in its place.
+      const std::vector<int>& patch = mesh.slave_patches.front();
+      const int added = mesh.cell_count() - whole.cell_count();
+      const int of_face = static_cast<int>(patch.size()) - 1;
+      for (int i = 0; i <= of_face; ++i) CHECK(patch[static_cast<std::size_t>(i)] == added - of_face + face + i);
+      for (int other = 1; other < whole.cell_count(); ++other) {
+        const int now = other + added - (other < face ? of_face : 0);
+        if (other != face) CHECK(std::ranges::equal(mesh.cell(now), whole.cell(other)));
+      }
       if (type == quad4) {
         CHECK(mesh.slave_patches.front().size() == 3);
         CHECK(inner_nodes(mesh, mesh.slave_patches.front()).size() == 2);
@@ -129,6 +136,28 @@ TEST_CASE("New nodes of quadratic cells are numbered as in Code_Aster 17.3", "[m
   }
 }
 
+TEST_CASE("Pieces of triangles, quadrangles and tetrahedra stand as in Code_Aster 17.3", "[mesh]") {
+  using enum CellType;
+  using Nodes = std::vector<int>;
+  const auto pieces = [](CellType type, int face, int count) {
+    const Mesh mesh = with_cut_slave_faces(dressed(type), std::vector{face}, HexaCut::pyramids);
+    std::vector<Nodes> found;
+    for (int cell = 0; cell < count; ++cell) found.emplace_back(mesh.cell(cell).begin(), mesh.cell(cell).end());
+    return found;
+  };
+  // Lines 1, 2 ... go from corner to corner; new nodes follow the corners.
+  CHECK(pieces(tria3, 1, 2) == std::vector<Nodes>{{0, 3, 2}, {3, 1, 2}});
+  CHECK(pieces(tria3, 2, 2) == std::vector<Nodes>{{1, 3, 0}, {3, 2, 0}});
+  CHECK(pieces(quad4, 1, 4) == std::vector<Nodes>{{0, 4, 6, 3}, {4, 5, 7, 6}, {5, 1, 2, 7}, {2, 3, 6, 7}});
+  const Mesh whole = dressed(tetra4);
+  for (int face = 1; face <= 4; ++face) {
+    const auto base = whole.cell(face);
+    const int apex = 0 + 1 + 2 + 3 - base[0] - base[1] - base[2];
+    CHECK(pieces(tetra4, face, 3) ==
+          std::vector<Nodes>{{apex, base[0], base[1], 4}, {apex, base[1], base[2], 4}, {apex, base[2], base[0], 4}});
+  }
+}
+
 TEST_CASE("Six hexahedra fill the one behind a slave face", "[mesh]") {
   const Mesh whole = dressed(CellType::hexa8);
   for (int face = 1; face < whole.cell_count(); ++face) {
@@ -154,8 +183,7 @@ TEST_CASE("Four quadrangles fill the one behind a slave line, around one below i
   Mesh whole = dressed(CellType::quad4);
   whole.nodes = {{0, 0, 0}, {3, 0, 0}, {5, 2, 0}, {-1, 2, 0}};
   const Mesh mesh = with_cut_slave_faces(whole, std::vector{1}, HexaCut::pyramids);
-  CHECK(mesh.cell_types[mesh.cell_count() - 1] == CellType::quad4);
-  CHECK(std::ranges::count(mesh.cell_types, CellType::quad4) == 4);
+  for (int cell = 0; cell < 4; ++cell) CHECK(mesh.cell_types[static_cast<std::size_t>(cell)] == CellType::quad4);
   REQUIRE(mesh.nodes.size() == 8);
   // Half-way between the thirds of the line and those of the opposite side.
   const std::vector<Point> expected = {{1, 0, 0}, {2, 0, 0}, {1, 1, 0}, {2.5, 1, 0}};
@@ -197,7 +225,7 @@ TEST_CASE("Groups hold the pieces of their cells, the first under the old name",
   // Four quadrangles, of which the second edge cuts one in four.
   CHECK(cut.cell_groups.at("BODIES").size() == 7);
   CHECK(cut.cell_names.size() == static_cast<std::size_t>(cut.cell_count()));
-  CHECK(std::ranges::equal(cut.cell(cut.find_cell("A")), std::vector{4, 5}));
+  CHECK(std::ranges::equal(cut.cell(cut.find_cell("A")), std::vector{0, 4}));
   CHECK(std::ranges::equal(cut.cell(cut.slave_patches.front().back()), std::vector{5, 1}));
 }
 
