@@ -425,7 +425,9 @@ void list_areas(Table& table, const Call& call) {
   for (const Keywords& occurrence : call.factors("AIRE_INTERNE")) {
     const auto names = occurrence.texts("GROUP_MA_BORD");
     const auto rim = selected_cells(occurrence, mesh, {"", "", "", "GROUP_MA_BORD", ""});
-    table.add_row({{"GROUP_MA", fmt::format("{}", fmt::join(names, " "))}, {"AIRE", solver::enclosed_area(mesh, rim)}});
+    table.add_row({{"GROUP_MA", fmt::format("{}", fmt::join(names, " "))},
+                   {"AIRE", solver::enclosed_area(mesh, rim)},
+                   {"LONGUEUR", solver::length_along_nodes(mesh, rim)}});
   }
 }
 

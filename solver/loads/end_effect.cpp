@@ -34,21 +34,33 @@ EdgesAt edges_at_nodes(const Mesh& mesh, std::span<const int> rim) {
   return result;
 }
 
+/// The places of an edge's nodes from one end to the other.
+std::vector<Eigen::Vector3d> path_along(const Mesh& mesh, int cell) {
+  const auto nodes = mesh.cell(cell);
+  std::vector<Eigen::Vector3d> path = {Eigen::Vector3d(mesh.nodes[nodes[0]].data())};
+  for (const int node : nodes.subspan(2)) path.emplace_back(mesh.nodes[node].data());
+  path.emplace_back(mesh.nodes[nodes[1]].data());
+  return path;
+}
+
 /// Twice the vector area that an edge sweeps from `origin`, in the sense of its own nodes.
 Eigen::Vector3d swept(const Mesh& mesh, int cell, const Eigen::Vector3d& origin) {
-  const auto nodes = mesh.cell(cell);
-  std::vector<int> path = {nodes[0]};
-  path.insert(path.end(), nodes.begin() + 2, nodes.end());
-  path.push_back(nodes[1]);
+  const std::vector<Eigen::Vector3d> path = path_along(mesh, cell);
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    const Eigen::Vector3d from = Eigen::Vector3d(mesh.nodes[path[k - 1]].data()) - origin;
-    sum += from.cross(Eigen::Vector3d(mesh.nodes[path[k]].data()) - origin);
-  }
+  for (std::size_t k = 1; k < path.size(); ++k) sum += (path[k - 1] - origin).cross(path[k] - origin);
   return sum;
 }
 
 }  // namespace
+
+double length_along_nodes(const Mesh& mesh, std::span<const int> rim) {
+  double length = 0.0;
+  for (const int cell : rim) {
+    const std::vector<Eigen::Vector3d> path = path_along(mesh, cell);
+    for (std::size_t k = 1; k < path.size(); ++k) length += (path[k] - path[k - 1]).norm();
+  }
+  return length;
+}
 
 double enclosed_area(const Mesh& mesh, std::span<const int> rim) {
   const EdgesAt edges = edges_at_nodes(mesh, rim);

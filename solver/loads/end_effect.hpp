@@ -10,10 +10,13 @@
 namespace comma::solver {
 
 /// Area that a closed line encloses: edges (in any order, turned any way) that make one or several closed lines round
-/// the same hole. It is that of the plane best fitted to the line: half the length of the sum of x cross dx. Curved
-/// edges count with their shape functions. Throws Error `not-a-line` for a cell that is no edge, and for a line that is
+/// the same hole. It is that of the plane best fitted to the line: half the length of the sum of x cross dx. Edges
+/// of three nodes are two straight ones. Throws Error `not-a-line` for a cell that is no edge, and for a line that is
 /// open or forks (naming a node).
 double enclosed_area(const Mesh& mesh, std::span<const int> rim);
+
+/// Length of edges, those of three nodes being two straight ones.
+double length_along_nodes(const Mesh& mesh, std::span<const int> rim);
 
 /// Area of face cells. Throws Error `not-a-face` naming a cell that is none.
 double surface_area(const Mesh& mesh, std::span<const int> faces);

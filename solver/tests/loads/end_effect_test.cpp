@@ -56,11 +56,13 @@ TEST_CASE("the area inside a rim: a polygon by straight edges, whichever way the
   const Ring ring(12, false);
   CHECK(enclosed_area(ring.mesh, ring.rim) == exactly(polygon(12)));
   CHECK(surface_area(ring.mesh, ring.faces) == exactly(3.0 * polygon(12)));
+  CHECK(length_along_nodes(ring.mesh, ring.rim) == exactly(24.0 * std::sin(std::numbers::pi / 12)));
 }
 
 TEST_CASE("a rim of quadratic edges is a polygon through their middle nodes too") {
   const Ring ring(12, true);
   CHECK(enclosed_area(ring.mesh, ring.rim) == exactly(polygon(24)));
+  CHECK(length_along_nodes(ring.mesh, ring.rim) == exactly(48.0 * std::sin(std::numbers::pi / 24)));
 }
 
 TEST_CASE("the end of a tube is pulled by the pressure on its hole") {
