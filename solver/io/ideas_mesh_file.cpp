@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
@@ -88,6 +89,12 @@ std::optional<IdeasCell> cell_of(int descriptor, int nodes) {
   return face ? face : solid_of(descriptor);
 }
 
+/// Cells stand type by type, in the order of Code_Aster 17.3.
+constexpr std::array type_order = {CellType::seg2,    CellType::tria3,  CellType::tria6,   CellType::quad4,
+                                   CellType::quad8,   CellType::tetra4, CellType::tetra10, CellType::penta6,
+                                   CellType::penta15, CellType::hexa8,  CellType::hexa20,  CellType::poi1,
+                                   CellType::seg3};
+
 class IdeasReader {
  public:
   IdeasReader(std::string_view text, std::string path) : text_(text), path_(std::move(path)) {}
@@ -139,7 +146,6 @@ class IdeasReader {
       if (!node_index_.emplace(label, mesh_.node_count()).second)
         fail(fmt::format("node {} stands twice in the file", label));
       mesh_.nodes.push_back(at);
-      mesh_.node_names.push_back(fmt::format("N{}", label));
     }
   }
 
@@ -183,10 +189,9 @@ class IdeasReader {
         fail(fmt::format("element {} has the node {}, which is not in the file before it", label, wanted));
       nodes.push_back(found->second);
     }
-    if (!cell_index_.emplace(label, mesh_.cell_count()).second)
+    if (!cell_index_.emplace(label, static_cast<int>(cells_.size())).second)
       fail(fmt::format("element {} stands twice in the file", label));
-    mesh_.add_cell(kind->type, nodes);
-    mesh_.cell_names.push_back(fmt::format("M{}", label));
+    cells_.emplace_back(kind->type, std::move(nodes));
   }
 
   void read_groups(std::size_t head_size, int stride) {
@@ -214,7 +219,19 @@ class IdeasReader {
     if (in_groups_.insert(fmt::format("{} {} {}", kind, name, found->second)).second) members.push_back(found->second);
   }
 
-  void finish() { settle_in_plane(mesh_); }
+  void finish() {
+    std::vector<std::size_t> order(cells_.size());
+    std::iota(order.begin(), order.end(), 0);
+    const auto rank = [&](std::size_t cell) {
+      return std::ranges::find(type_order, cells_[cell].first) - type_order.begin();
+    };
+    std::ranges::stable_sort(order, {}, rank);
+    std::vector<int> number(cells_.size());
+    for (const std::size_t cell : order) number[cell] = mesh_.add_cell(cells_[cell].first, cells_[cell].second);
+    for (auto& [name, members] : mesh_.cell_groups)
+      for (int& member : members) member = number[static_cast<std::size_t>(member)];
+    settle_in_plane(mesh_);
+  }
 
   // --- lines
 
@@ -279,6 +296,7 @@ class IdeasReader {
   int number_ = 0;
   bool ended_ = false;  ///< the data set, on the line read last
   Mesh mesh_;
+  std::vector<std::pair<CellType, std::vector<int>>> cells_;  ///< as the file lists them
   std::unordered_map<int, int> node_index_, cell_index_;
   std::unordered_set<std::string> in_groups_;
 };

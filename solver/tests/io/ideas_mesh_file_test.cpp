@@ -80,11 +80,27 @@ TEST_CASE("a universal file gives nodes, cells and groups", "[io]") {
   REQUIRE(mesh.cell_count() == 3);
   CHECK(mesh.cell_types[0] == CellType::seg2);
   CHECK(mesh.cell_types[2] == CellType::tria3);
-  CHECK(mesh.nodes[static_cast<std::size_t>(mesh.find_node("N8"))] == Point{1, 1, 0});
-  CHECK(Group(mesh.cell(mesh.find_cell("M4")).begin(), mesh.cell(mesh.find_cell("M4")).end()) == Group{0, 2, 3});
+  CHECK(mesh.nodes[2] == Point{1, 1, 0});
+  CHECK(mesh.node_name(2) == "N3");
+  CHECK(mesh.cell_name(2) == "M3");
+  CHECK(Group(mesh.cell(2).begin(), mesh.cell(2).end()) == Group{0, 2, 3});
   CHECK(mesh.cell_group("PLATE") == Group{1, 2});
   CHECK(mesh.node_group("PLATE") == Group{3});
   CHECK(mesh.cell_group("EDGE") == Group{0});
+}
+
+TEST_CASE("cells of a universal file stand type by type, lines first", "[io]") {
+  std::string text = square;
+  const std::string line =
+      "         1        21         2         1         7         2\n"
+      "         0         1         1\n         5         6\n";
+  const std::string last = "         5         8         9\n";
+  text.replace(text.find(line), line.size(), "");
+  text.insert(text.find(last) + last.size(), line);
+  const Mesh mesh = parse_ideas_mesh(text, "square.unv");
+  CHECK(mesh.cell_types == std::vector<CellType>{CellType::seg2, CellType::tria3, CellType::tria3});
+  CHECK(mesh.cell_group("EDGE") == Group{0});
+  CHECK(mesh.cell_group("PLATE") == Group{1, 2});
 }
 
 TEST_CASE("a data set may end behind the last member of a group, on the same line", "[io]") {
