@@ -175,20 +175,9 @@ Vector2d facet_centre(CellType type) {
   return family_of(type) == Family::triangle ? Vector2d(1.0 / 3, 1.0 / 3) : Vector2d(0.0, 0.0);
 }
 
-double outside_distance(CellType type, const Vector2d& xi) {
-  switch (family_of(type)) {
-    case Family::line:
-      return std::max(0.0, std::abs(xi[0]) - 1.0);
-    case Family::triangle:
-      return std::max({0.0, -xi[0], -xi[1], xi[0] + xi[1] - 1.0});
-    case Family::quadrangle:
-      return std::max({0.0, std::abs(xi[0]) - 1.0, std::abs(xi[1]) - 1.0});
-  }
-  return 0.0;
-}
+double outside_distance(CellType type, const Vector2d& xi) { return (bring_back(type, xi) - xi).norm(); }
 
 Vector2d bring_back(CellType type, const Vector2d& xi) {
-  if (outside_distance(type, xi) == 0.0) return xi;
   if (family_of(type) == Family::line) return {std::clamp(xi[0], -1.0, 1.0), 0.0};
   if (family_of(type) == Family::quadrangle) return {std::clamp(xi[0], -1.0, 1.0), std::clamp(xi[1], -1.0, 1.0)};
   const Vector2d clamped(std::clamp(xi[0], 0.0, 1.0), std::clamp(xi[1], 0.0, 1.0));

@@ -26,7 +26,8 @@ FacetShape facet_shape(CellType type, const Eigen::Vector2d& xi);
 Eigen::Vector2d facet_node(CellType type, int node);
 Eigen::Vector2d facet_centre(CellType type);
 
-/// How far a reference point lies outside the reference cell, in reference coordinates; 0 inside.
+/// How far a reference point lies from the nearest point of the reference cell, in reference coordinates; 0 inside
+/// (TOLE_PROJ_EXT is compared with it, beside corners and slanted edges too: Code_Aster 17.3).
 double outside_distance(CellType type, const Eigen::Vector2d& xi);
 /// The nearest point of the reference cell.
 Eigen::Vector2d bring_back(CellType type, const Eigen::Vector2d& xi);

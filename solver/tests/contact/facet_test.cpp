@@ -64,21 +64,28 @@ TEST_CASE("What falls outside a reference cell is measured and brought back to i
 }
 
 TEST_CASE("Wherever a point lies beside a triangle, it is brought back to the nearest place inside") {
-  const auto distance_to_corner = [](const Vector2d& xi) {
-    return std::min({xi.norm(), (xi - Vector2d(1, 0)).norm(), (xi - Vector2d(0, 1)).norm()});
-  };
-  for (double x = -1.5; x <= 2.5; x += 0.0625) {
-    for (double y = -1.5; y <= 2.5; y += 0.0625) {
+  for (double x = -1.5; x <= 2.5; x += 0.125) {
+    for (double y = -1.5; y <= 2.5; y += 0.125) {
       const Vector2d xi(x, y);
       const Vector2d place = bring_back(CellType::tria3, xi);
       CHECK(outside_distance(CellType::tria3, place) <= 1e-15);
-      CHECK((place - xi).norm() <= distance_to_corner(xi) + 1e-15);
-      CHECK((place - xi).norm() >= outside_distance(CellType::tria3, xi) / std::sqrt(2.0) - 1e-15);
+      double nearest = 1e300;
+      for (double first = 0.0; first <= 1.0; first += 0.03125)
+        for (double second = 0.0; first + second <= 1.0; second += 0.03125)
+          nearest = std::min(nearest, (Vector2d(first, second) - xi).norm());
+      CHECK((place - xi).norm() <= nearest + 1e-15);
     }
   }
   // Beyond a corner, on the inner side of the slanted edge's line.
   CHECK(bring_back(CellType::tria3, {1.25, -0.5}) == Vector2d(1, 0));
   CHECK(bring_back(CellType::tria3, {-0.5, 1.25}) == Vector2d(0, 1));
+}
+
+TEST_CASE("How far a point lies outside is its distance, beside corners and slanted edges too") {
+  CHECK(outside_distance(CellType::quad4, {1.08, -1.06}) == exactly(0.1));
+  CHECK(outside_distance(CellType::tria3, {-0.08, -0.06}) == exactly(0.1));
+  CHECK(outside_distance(CellType::tria3, {0.6, 0.5}) == exactly(0.1 / std::sqrt(2.0)));
+  CHECK(outside_distance(CellType::tria3, {1.03, -0.04}) == exactly(0.05));
 }
 
 TEST_CASE("Normals of edges that go round counter-clockwise, and of faces, point out") {
