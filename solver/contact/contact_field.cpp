@@ -76,6 +76,17 @@ void write_state(const NodeContact& contact, Positions positions, double* row) {
   row[gli] = contact.slip.norm();
 }
 
+/// Of a node that faces nothing: how far it is from the nearest place, if that is known.
+void write_apart(const NodeContact& contact, Positions positions, Unpaired unpaired, double* row) {
+  row[cont] = static_cast<double>(unpaired);
+  row[jeu] = contact.gap;
+  if (!contact.has_foot) return;
+  for (int axis = 0; axis < 3; ++axis) {
+    row[pt_x + axis] = positions[contact.pair.slave][axis];
+    row[proj_x + axis] = contact.pair.foot[axis];
+  }
+}
+
 /// To those of other zones at the node. Contact pulls at a node that it holds (MixedZone::bilateral): RN is a size.
 void add_forces(const NodeContact& contact, double duration, double* row) {
   row[rn] += std::abs(contact.normal_force);
@@ -98,6 +109,10 @@ NodalField empty_field(int node_count) {
   return field;
 }
 
+bool is_faced(const ContactPair& pair) {
+  return pair.status == PairingStatus::paired || pair.status == PairingStatus::watched;
+}
+
 /// What has been written of a node.
 enum class Written : std::uint8_t { nothing, not_paired, state };
 
@@ -111,7 +126,8 @@ NodalField untouched_field(std::span<const int> slave_nodes, int node_count) {
   return field;
 }
 
-NodalField contact_field(std::span<const NodeContact> contacts, int node_count, Positions positions, double duration) {
+NodalField contact_field(std::span<const NodeContact> contacts, int node_count, Positions positions, double duration,
+                         Unpaired unpaired) {
   NodalField field = empty_field(node_count);
   std::vector<Written> written(static_cast<std::size_t>(node_count), Written::nothing);
   for (const NodeContact& contact : contacts) {
@@ -119,9 +135,9 @@ NodalField contact_field(std::span<const NodeContact> contacts, int node_count, 
     double* row = field.values.data() + static_cast<std::size_t>(pair.slave) * column_count;
     Written& known = written[static_cast<std::size_t>(pair.slave)];
     if (row[cont] != row[cont]) std::fill_n(row, std::size_t{column_count}, 0.0);
-    if (pair.status != PairingStatus::paired && pair.status != PairingStatus::watched) {
+    if (!is_faced(pair)) {
       // A node that another zone holds keeps what that zone says.
-      if (known == Written::nothing) row[cont] = not_paired;
+      if (known == Written::nothing) write_apart(contact, positions, unpaired, row);
       known = std::max(known, Written::not_paired);
       continue;
     }
@@ -141,11 +157,11 @@ NodalField contact_field(std::span<const ContactPair> pairs, std::span<const dou
   for (std::size_t k = 0; k < pairs.size(); ++k)
     contacts.push_back(
         {.pair = pairs[k],
-         .gap = gaps[k],
+         .gap = is_faced(pairs[k]) ? gaps[k] : 0.0,
          .normal_force = multipliers[static_cast<Eigen::Index>(k)],
          .closed = multipliers[static_cast<Eigen::Index>(k)] > 0.0,
          .has_foot = pairs[k].status == PairingStatus::watched || multipliers[static_cast<Eigen::Index>(k)] > 0.0});
-  return contact_field(contacts, node_count, positions, duration);
+  return contact_field(contacts, node_count, positions, duration, Unpaired::open);
 }
 
 }  // namespace comma::solver

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <unordered_set>
+#include <utility>
 
 #include "solver/contact/face_rule.hpp"
 #include "solver/contact/facet_search.hpp"
@@ -61,10 +62,8 @@ class ZonePoints {
         add(point, known->second, points[known->second.index]);
         continue;
       }
-      if (excluded)
-        point.status = PairingStatus::excluded;
-      else
-        face_master(at, before_.of(points.size()), point);
+      face_master(at, before_.of(points.size()), point);
+      if (excluded) leave_out(point);
       if (point.node >= 0) at_nodes_.emplace(point.node, AtNode{points.size(), half_thickness(zone_, cell)});
       points.push_back(point);
     }
@@ -159,13 +158,20 @@ class ZonePoints {
                                                                 : search_.slave_normal(point.cell, at.xi);
     const auto hit = search_.nearest(here, own, before);
     if (!hit) return;
-    point.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
-    point.facet = hit->facet;
+    if (hit->faces) point.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
+    (hit->faces ? point.facet : point.beside) = hit->facet;
     point.master_shape = hit->projection.weights;
     point.foot = hit->projection.foot;
     point.kept = hit->kept;
     point.normal = search_.normal(*hit, own.outward.value_or(Vector3d::Zero()));
     point.thickness = thickness_at(zone_, here, time_) + half_thickness(zone_, point.cell);
+  }
+
+  /// It faces nothing, wherever it is.
+  static void leave_out(ContactPoint& point) {
+    point.status = PairingStatus::excluded;
+    if (point.facet >= 0) point.beside = std::exchange(point.facet, -1);
+    point.kept = false;
   }
 
   /// INTEGRATION='AUTO' is the discrete formulation's pairing of nodes (Code_Aster 17.3): the faces at a node have one

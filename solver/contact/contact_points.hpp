@@ -31,7 +31,8 @@ struct ContactPoint {
   double weight = 0.0;  ///< initial area (length in the plane; times the radius where axisymmetric)
   PairingStatus status = PairingStatus::outside;
   int facet = -1;                                      ///< master cell, when paired
-  std::array<double, max_facet_nodes> master_shape{};  ///< of the master facet's nodes
+  int beside = -1;                                     ///< the nearest master cell, when not paired
+  std::array<double, max_facet_nodes> master_shape{};  ///< of the nodes of either
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, from master to slave
   Eigen::Vector3d foot = Eigen::Vector3d::Zero();      ///< the place on the facet
   double thickness = 0.0;                              ///< of both sides, taken off the gap

@@ -137,8 +137,9 @@ std::optional<FacetSearch::Hit> FacetSearch::nearest(const Vector3d& point, cons
   if (faced.margin > 0.0 && faced.facet >= 0 && faced.facet != best.facet)
     if (auto before = kept(point, faced, best.facet < 0 ? infinitely_far : best.projection.distance)) return before;
   const double slack = faced.margin > 0.0 && faced.facet >= 0 ? faced.margin : 0.0;
-  if (best.facet < 0 || is_outside(best.projection, slack)) return std::nullopt;
-  best.kept = is_outside(best.projection, 0.0);
+  if (best.facet < 0) return std::nullopt;
+  best.faces = !is_outside(best.projection, slack);
+  best.kept = best.faces && is_outside(best.projection, 0.0);
   return best;
 }
 

@@ -40,6 +40,7 @@ class FacetSearch {
     Projection projection;
     bool kept = false;  ///< another facet is nearer, or it is fallen outside of by more than the zone's tolerance (see
                         ///< FacedFacet)
+    bool faces = true;  ///< false: the projection falls outside by more than the zone's tolerance
   };
 
   /// Whether no master node lies within the zone's pairing distance.
@@ -47,11 +48,11 @@ class FacetSearch {
 
   /// The facet whose nearest place is nearest, of those around the nearest master node (Code_Aster 17.3, R5.03.50); of
   /// all where another one is not half as far, or the projection falls outside. Facets of the point's own nodes are
-  /// passed over. Empty where the orthogonal projection falls outside that facet by more than the zone's tolerance.
-  /// Where the zone has a pairing direction: the nearest facet among those that a line along it meets, else the one
-  /// that it passes by the closest. A facet that was faced before is kept within its margin, and facing any of them. Of
-  /// facets that oppose the point's normal the nearest counts, if the point does not lie behind it, as behind the far
-  /// side of a body; it may where it lies behind the nearest of all, and so in the body.
+  /// passed over. Faces nothing where the orthogonal projection falls outside that facet by more than the zone's
+  /// tolerance. Where the zone has a pairing direction: the nearest facet among those that a line along it meets, else
+  /// the one that it passes by the closest. A facet that was faced before is kept within its margin, and facing any of
+  /// them. Of facets that oppose the point's normal the nearest counts, if the point does not lie behind it, as behind
+  /// the far side of a body; it may where it lies behind the nearest of all, and so in the body.
   std::optional<Hit> nearest(const Eigen::Vector3d& point, const OwnNodes& own, FacedFacet faced = {}) const;
 
   /// The nearest master node that is none of `own`, on one of its facets. Empty where there is none.

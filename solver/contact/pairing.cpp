@@ -39,7 +39,7 @@ class ZonePairing {
       result.status = PairingStatus::excluded;
     } else if (search_.too_far(at)) {
       result.status = PairingStatus::too_far;
-    } else if (const auto hit = place_on_master(slave, before)) {
+    } else if (const auto hit = place_on_master(slave, before); hit && hit->faces) {
       result.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
       result.facet = hit->facet;
       result.weights = hit->projection.weights;

@@ -108,7 +108,7 @@ void add_idle_multipliers(const SolvedContact& contact, const std::function<doub
 /// Where the place that the point faces has gone since surfaces were paired.
 Vector3d place_on_facet(const Mesh& mesh, const ContactPoint& point, Positions positions) {
   Vector3d place = Vector3d::Zero();
-  const auto nodes = mesh.cell(point.facet);
+  const auto nodes = mesh.cell(point.facet >= 0 ? point.facet : point.beside);
   for (std::size_t a = 0; a < nodes.size(); ++a)
     place += point.master_shape[a] * positions[static_cast<std::size_t>(nodes[a])];
   return place;
@@ -152,10 +152,11 @@ NodeContact node_contact(const SolvedContact& contact, Positions positions, std:
     node.closed = point.status == PairingStatus::paired && contact.is_closed(p);
     node.sticking = node.closed && (is_sticking(contact, p, shares) || is_left_to_creep(contact, point));
   }
-  if (contact.definition.formulation == ContactFormulation::discrete)
-    node.has_foot = node.closed;
-  else if (point.facet >= 0)
-    node.pair.foot = place_on_facet(contact.mesh, point, positions);
+  const bool is_discrete = contact.definition.formulation == ContactFormulation::discrete;
+  node.has_foot = is_discrete ? node.closed : point.facet >= 0 || point.beside >= 0;
+  if (!is_discrete && node.has_foot) node.pair.foot = place_on_facet(contact.mesh, point, positions);
+  if (!is_discrete && point.beside >= 0 && point.node >= 0)
+    node.gap = point.normal.dot(positions[static_cast<std::size_t>(point.node)] - node.pair.foot) - point.thickness;
   if (point.node >= 0) node.shear_force = shear_force(contact, p);
   for (int c = 1; c < condensed.rows; ++c)
     node.slip[c - 1] = contact.is_closed(p) ? contact.jumps[condensed.first_row + c] : 0.0;
@@ -222,8 +223,8 @@ void add_excluded_nodes(const SolvedContact& contact, std::vector<NodeContact>& 
     if (excluded.empty()) continue;
     for (const int node : contact.mesh.nodes_of_cells(each.slave_cells))
       if (excluded.contains(node))
-        contacts.push_back(
-            {.pair = {.zone = static_cast<int>(zone), .slave = node, .status = PairingStatus::excluded}});
+        contacts.push_back({.pair = {.zone = static_cast<int>(zone), .slave = node, .status = PairingStatus::excluded},
+                            .has_foot = false});
   }
 }
 
@@ -290,7 +291,8 @@ std::optional<NodalField> contact_state(const SolvedContact& contact, Positions 
   add_watched_nodes(contact, is_discrete ? paired_at : positions, instant, contacts);
   add_excluded_nodes(contact, contacts);
   if (contacts.empty()) return std::nullopt;
-  return contact_field(contacts, contact.mesh.node_count(), positions, duration);
+  return contact_field(contacts, contact.mesh.node_count(), positions, duration,
+                       is_discrete ? Unpaired::open : Unpaired::apart);
 }
 
 std::optional<ElementField> patch_state(const SolvedContact& contact) {

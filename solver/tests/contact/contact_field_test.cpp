@@ -37,11 +37,28 @@ TEST_CASE("Contact, open, not paired and foreign nodes") {
   CHECK(at(1, "CONT") == 0.0);
   CHECK(at(1, "JEU") == 0.25);
   CHECK(at(1, "RN") == 0.0);
-  CHECK(at(2, "CONT") == -1.0);
+  CHECK(at(2, "CONT") == 0.0);
   CHECK(at(2, "JEU") == 0.0);
   for (const char* force : {"RN", "RNX", "RTAY", "RTGZ", "R"}) CHECK(at(2, force) == 0.0);
   CHECK(std::isnan(at(3, "RN")));
   CHECK(std::isnan(at(3, "CONT")));
+}
+
+TEST_CASE("In the mixed formulation a node that faces nothing tells how far it is from the nearest place") {
+  const std::vector<Vector3d> places(2, Vector3d(1, 2, 3));
+  std::vector<NodeContact> contacts(2);
+  for (int node = 0; node < 2; ++node)
+    contacts[static_cast<std::size_t>(node)].pair = pair(node, PairingStatus::outside);
+  contacts[0].gap = 0.25;
+  contacts[0].pair.foot = {4, 5, 6};
+  contacts[1].has_foot = false;
+  const NodalField field = contact_field(contacts, 2, places);
+  const auto at = [&](int node, const char* name) { return field.at(node, field.component(name)); };
+  CHECK(at(0, "CONT") == -1.0);
+  CHECK(at(0, "JEU") == 0.25);
+  CHECK(at(0, "PROJ_Y") == 5.0);
+  CHECK(at(1, "CONT") == -1.0);
+  CHECK(at(1, "PT_X") == 0.0);
 }
 
 TEST_CASE("A node that one zone holds is not unpaired because another zone does not see it") {
