@@ -183,20 +183,23 @@ StateWords state_words(const Keywords& occurrence, const solver::StaticProblem& 
   return words;
 }
 
-// What computations on the steps of the occurrence go on from: loads and behaviour. Null where it says nothing of them.
-Origin state_of(Making& making, const Keywords& occurrence) {
-  if (!occurrence.has("EXCIT") && !occurrence.has("COMPORTEMENT")) return nullptr;
+// What computations on the steps of the occurrence go on from: loads and behaviour, which stand beside the occurrences
+// or, in older files, in each of them. Null where nothing is said of them.
+Origin state_of(Making& making, const Call& call, const Keywords& occurrence) {
+  const Keywords& loads = occurrence.has("EXCIT") ? occurrence : call;
+  const Keywords& laws = occurrence.has("COMPORTEMENT") ? occurrence : call;
+  if (!loads.has("EXCIT") && !laws.has("COMPORTEMENT")) return nullptr;
   auto problem = std::make_shared<solver::StaticProblem>(making.current ? *making.current : making.product.problem);
-  if (occurrence.has("EXCIT")) take_loads(occurrence, *problem);
-  if (occurrence.has("COMPORTEMENT")) {
+  if (loads.has("EXCIT")) take_loads(loads, *problem);
+  if (laws.has("COMPORTEMENT")) {
     problem->model = making.product.problem.model;
     if (!problem->model) {
       throw DiagnosticError("missing-keyword", "CREA_RESU: a behaviour belongs to the cells of a model",
-                            occurrence.span_of("COMPORTEMENT"), "give MODELE");
+                            laws.span_of("COMPORTEMENT"), "give MODELE");
     }
-    problem->behaviours = behaviours_of(occurrence, *problem->model, false);
+    problem->behaviours = behaviours_of(laws, *problem->model, false);
   }
-  StateWords words = state_words(occurrence, *problem);
+  StateWords words = state_words(loads, *problem);
   if (making.current && words == making.words) return making.current;
   making.words = std::move(words);
   return making.current = problem;
@@ -213,7 +216,7 @@ const std::string& field_name(const Call& call, const Keywords& occurrence) {
 void add_field(Making& making, const Call& call, const Keywords& occurrence) {
   const auto& data = interpreter::data_of<FieldConcept>(occurrence.concept_of("CHAM_GD"), "CHAM_GD");
   take_support(making.product, occurrence, data);
-  const Origin state = state_of(making, occurrence);
+  const Origin state = state_of(making, call, occurrence);
   for (const double instant : instants_of(occurrence)) {
     solver::ResultStep& step = making.step_at(instant, instant_tolerance(occurrence), state);
     step.fields.insert_or_assign(field_name(call, occurrence), at_instant(data, instant, occurrence.span));

@@ -80,7 +80,7 @@ solver::WatchedIncrement watched_increment(const Call& call, const Keywords& giv
 // Without VALE_I it is half of ITER_GLOB_MAXI, which STAT_NON_LINE knows.
 void read_threshold(const Keywords& given, solver::AdaptationRule& rule) {
   const std::string comparison = given.text("CRIT_COMP");
-  rule.in_a_row = static_cast<int>(given.integer("NB_INCR_SEUIL"));
+  rule.needed = static_cast<int>(given.integer("NB_INCR_SEUIL"));
   rule.strict = comparison == "LT" || comparison == "GE";
   rule.beyond = comparison == "GT" || comparison == "GE";
   if (given.has("VALE_I")) rule.few_iterations = static_cast<int>(given.integer("VALE_I"));

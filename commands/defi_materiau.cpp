@@ -169,13 +169,11 @@ solver::TractionHardening traction_hardening(const Keywords& law) {
 }
 
 solver::PowerHardening power_hardening(const Keywords& law) {
-  return {law.real("SY"), law.real("A_PUIS"), law.real("N_PUIS")};
+  return {property(law, "SY"), property(law, "A_PUIS"), property(law, "N_PUIS")};
 }
 
-solver::NonlinearHardening nonlinear_hardening(const Keywords& law) {
-  const auto value = [&](const char* keyword, double otherwise = 0.0) {
-    return law.has(keyword) ? law.real(keyword) : otherwise;
-  };
+solver::NonlinearHardeningOf<Property> nonlinear_hardening(const Keywords& law) {
+  const auto value = [&](const char* keyword, double otherwise = 0.0) { return property(law, keyword, otherwise); };
   return {value("R0"),      value("RH"), value("R1"), value("GAMMA_1"),      value("R2"),
           value("GAMMA_2"), value("RK"), value("P0"), value("GAMMA_M", 1.0), value("EPSP_LUDERS")};
 }
@@ -210,8 +208,10 @@ void add_plasticity(const Call& call, solver::Plasticity& plasticity) {
                                                         {property(law, "DC_SIGM_EPSI"), property(law, "SY_C")}};
   }
   if (call.has("TRACTION")) plasticity.traction = traction_hardening(call.factor("TRACTION"));
-  if (call.has("ECRO_PUIS")) plasticity.power = power_hardening(call.factor("ECRO_PUIS"));
-  if (call.has("ECRO_NL")) plasticity.nonlinear = nonlinear_hardening(call.factor("ECRO_NL"));
+  for (const char* keyword : {"ECRO_PUIS", "ECRO_PUIS_FO"})
+    if (call.has(keyword)) plasticity.power = power_hardening(call.factor(keyword));
+  for (const char* keyword : {"ECRO_NL", "ECRO_NL_FO"})
+    if (call.has(keyword)) plasticity.nonlinear = nonlinear_hardening(call.factor(keyword));
   if (call.has("ELAS_HYPER")) plasticity.hyperelasticity = hyperelasticity(call.factor("ELAS_HYPER"));
   for (const char* keyword : {"PRAGER", "PRAGER_FO"})
     if (call.has(keyword)) plasticity.prager = property(call.factor(keyword), "C");

@@ -185,8 +185,6 @@ solver::NewtonOptions newton_options(const Call& call, const solver::Mesh& mesh)
       options.max_iterations = static_cast<int>(convergence.integer("ITER_GLOB_MAXI"));
     if (convergence.has("ITER_GLOB_ELAS"))
       options.max_elastic_iterations = static_cast<int>(convergence.integer("ITER_GLOB_ELAS"));
-    if (options.tangent.correction == solver::TangentKind::elastic)
-      options.max_iterations = std::max(options.max_iterations, options.max_elastic_iterations);
   }
   const SolverChoice choice = solver_choice(call);
   // Each contact row is a right-hand side, and one factor serves them all.
@@ -368,6 +366,7 @@ Product stat_non_line(const Call& call, Context& context) {
         call.factor("ARCHIVAGE").span, "name instants of INCREMENT/LIST_INST");
   observer.warn_of_nothing(computed, context.diagnostics);
   warn_of_unconverged_steps(call, unconverged, context);
+  warn_of_used_up_steps(call, scene.steps, *product, context);
   warn_of_indefinite_stiffness(call, before, context);
   warn_of_turns(call, *product, context);
   if (!computed.empty()) warn_of_inverted_cells(call, *product, computed.front(), context);

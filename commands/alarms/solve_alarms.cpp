@@ -229,6 +229,17 @@ void warn_of_contact(const interpreter::Call& call, const solver::StaticProblem&
   }
 }
 
+void warn_of_used_up_steps(const interpreter::Call& call, const solver::StepPlan& plan, const ResultConcept& product,
+                           Context& context) {
+  if (!plan.adaptation || !product.problem.driven.empty() || product.result.steps.empty()) return;
+  const double reached = product.result.steps.back().instant;
+  if (reached >= plan.instants.back()) return;
+  context.diagnostics.alarm("steps-used-up",
+                            fmt::format("{}: ends at INST={:.6g} of {:.6g}, after {} steps, the most that are allowed",
+                                        call.command, reached, plan.instants.back(), plan.adaptation->most_steps),
+                            call.span, "raise NB_PAS_MAXI of DEFI_LIST_INST, or let steps grow");
+}
+
 void warn_of_unconverged_steps(const interpreter::Call& call, const std::set<double>& instants, Context& context) {
   if (instants.empty()) return;
   constexpr std::size_t most_shown = 6;

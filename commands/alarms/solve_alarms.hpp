@@ -22,6 +22,10 @@ void warn_of_contact(const interpreter::Call& call, const solver::StaticProblem&
                      const solver::ContactDoubts& doubts, Context& context);
 
 /// Alarm `not-converged`: steps that stand all the same (ARRET='NON'), by their instants.
+/// Steps that adapt end before the last instant of the list, at the most that are allowed (NB_PAS_MAXI).
+void warn_of_used_up_steps(const interpreter::Call& call, const solver::StepPlan& plan, const ResultConcept& product,
+                           Context& context);
+
 void warn_of_unconverged_steps(const interpreter::Call& call, const std::set<double>& instants, Context& context);
 
 /// Alarm `unused-stresses`: what ETAT_INIT gives as SIGM is not what its other fields make of the stresses, of a law

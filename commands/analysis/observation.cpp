@@ -203,7 +203,8 @@ void Observer::observe(Observation& observation, const solver::ResultStep& step,
                        Table& table) const {
   const Keywords& keywords = observation.keywords;
   // The initial state has not all fields.
-  if (number == 0 && !step.fields.contains(keywords.text("NOM_CHAM"))) return;
+  const std::string& name = keywords.text("NOM_CHAM");
+  if (number == 0 && !step.fields.contains(name) && !solver::FieldComputation::knows(name)) return;
   observation.was_due = true;
   solver::Field made;
   const solver::Field& field = watched(keywords, step, computation, made);
@@ -230,7 +231,7 @@ void Observer::observe(Observation& observation, const solver::ResultStep& step,
                {"INST", step.instant},
                {"NOM_CHAM", keywords.text("NOM_CHAM")},
                {"EVAL_CHAM", operation},
-               {"NOM_CMP", components[static_cast<std::size_t>(component)]}};
+               {by_formula ? "EVAL_CMP" : "NOM_CMP", components[static_cast<std::size_t>(component)]}};
     row.insert(row.end(), sample.place.begin(), sample.place.end());
     if (nodal == nullptr && keywords.text("EVAL_ELGA") != "VALE")
       row.emplace_back("EVAL_ELGA", keywords.text("EVAL_ELGA"));

@@ -70,6 +70,10 @@ class Smoothing {
     const CellType type = model_.mesh->cell_types[cell];
     const int nodes = node_count(type);
     if (points == 1) return Eigen::MatrixXd::Ones(nodes, 1);
+    if (model_.is_skin(cell)) {
+      Eigen::MatrixXd matrix = gauss_to_nodes(type, boundary_family(type));
+      if (matrix.cols() == points) return matrix;
+    }
     const Formulation formulation = model_.formulations[cell];
     const bool is_surface = is_plate(formulation) && dimension(type) == 2;
     if (is_surface || continuum_dimension(formulation) == dimension(type)) {

@@ -34,25 +34,27 @@ struct TractionHardening {
 
 /// R(p) = s + s (E p / (a s))^(1 / n) with the yield stress s (R5.03.02).
 struct PowerHardening {
-  double yield = 0.0;
-  double factor = 1.0;    ///< a
-  double exponent = 1.0;  ///< n
+  Property yield{};
+  Property factor = 1.0;    ///< a
+  Property exponent = 1.0;  ///< n
 };
 
 /// R(p) = R0 + H p + R1 (1 - exp(-g1 p)) + R2 (1 - exp(-g2 p)) + K (p + p0)^m, after a plateau of Lueders' bands: R(p)
 /// = R(plateau) for p below it (U4.43.01, ECRO_NL).
-struct NonlinearHardening {
-  double initial = 0.0;  ///< R0
-  double slope = 0.0;    ///< H
-  double first = 0.0;    ///< R1
-  double first_rate = 0.0;
-  double second = 0.0;  ///< R2
-  double second_rate = 0.0;
-  double power_factor = 0.0;  ///< K
-  double power_offset = 0.0;  ///< p0
-  double power = 1.0;         ///< m
-  double plateau = 0.0;       ///< cumulated plastic strain at its end
+template <class Number>
+struct NonlinearHardeningOf {
+  Number initial = 0.0;  ///< R0
+  Number slope = 0.0;    ///< H
+  Number first = 0.0;    ///< R1
+  Number first_rate = 0.0;
+  Number second = 0.0;  ///< R2
+  Number second_rate = 0.0;
+  Number power_factor = 0.0;  ///< K
+  Number power_offset = 0.0;  ///< p0
+  Number power = 1.0;         ///< m
+  Number plateau = 0.0;       ///< cumulated plastic strain at its end
 };
+using NonlinearHardening = NonlinearHardeningOf<double>;  ///< at a point
 
 /// The energy of Signorini (see hyperelastic.hpp).
 struct Hyperelasticity {
@@ -68,7 +70,7 @@ struct Plasticity {
   std::optional<AsymmetricHardening> asymmetric;
   std::optional<TractionHardening> traction;
   std::optional<PowerHardening> power;
-  std::optional<NonlinearHardening> nonlinear;
+  std::optional<NonlinearHardeningOf<Property>> nonlinear;
   std::optional<Hyperelasticity> hyperelasticity;
   std::optional<Property> prager;  ///< C: the centre of the yield surface moves by C times the plastic strain
 };

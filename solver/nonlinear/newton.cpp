@@ -68,7 +68,7 @@ void NewtonSolver::start_step(double duration) {
   if (!is_short_) return;
   policy_.correction = TangentKind::elastic;
   policy_.iterations = policy_.elastic_iterations;
-  most_iterations_ = std::max(most_iterations_, options_.max_elastic_iterations);
+  most_iterations_ = options_.max_elastic_iterations;
 }
 
 int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::VectorXd offset,
@@ -105,7 +105,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
     }
     if (!std::isfinite(measure.absolute)) break;
     look_at_residuals(watch_, history);
-    if (iteration == most && earlier + most == most_iterations_)
+    if (iteration == most && earlier + most >= most_iterations_)
       most += further_iterations(time, history, measure.excess);
   }
   if (stands_unconverged(options_, history)) return history.back().iteration;
@@ -122,15 +122,24 @@ void NewtonSolver::require_at_hand(double time, const Eigen::VectorXd& u) const 
   if (farthest > farthest_motion * size) throw_lost_body(time, farthest / size, tangent_.unheld());
 }
 
-/// Beyond the most, where the residuals promise to get there in so many.
+/// Beyond the most, where the residuals promise to get there: up to all that are allowed, and as many again where the
+/// promise is not kept. Of two criteria that of the loads counts while it is not met.
 int NewtonSolver::further_iterations(double time, const std::vector<IterationReport>& history, double excess) const {
-  const int allowed = static_cast<int>(watch_.further * most_iterations_);
-  const std::optional<int> needed = allowed > 0 ? iterations_to_go(history, excess) : std::nullopt;
-  if (!needed || *needed > allowed) return 0;
+  const int further = static_cast<int>(std::lround(watch_.further * most_iterations_));
+  if (further <= 0) return 0;
+  const IterationReport& last = history.back();
+  const bool to_loads = options_.relative_residual && last.relative_residual > *options_.relative_residual;
+  std::vector<double> residuals;
+  for (const IterationReport& each : history)
+    residuals.push_back(to_loads ? each.relative_residual : each.absolute_residual);
+  const double limit = to_loads ? *options_.relative_residual : last.absolute_residual / excess;
+  const std::optional<int> needed = expected_iterations(residuals, limit);
+  if (!needed || *needed > most_iterations_ + further) return 0;
   if (observer_)
-    observer_(event_of_step(
-        time, fmt::format("{} more iterations are allowed: the residual shrinks as if it took {}", allowed, *needed)));
-  return allowed;
+    observer_(
+        event_of_step(time, fmt::format("{} more iterations are allowed: the residual shrinks as if it took {} in all",
+                                        further, *needed + 1)));
+  return further;
 }
 
 /// The tangent and the residual of the first iteration. A nonlinear body is left where it is in balance, and what the

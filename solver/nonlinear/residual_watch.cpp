@@ -34,16 +34,25 @@ void look_at_residuals(const ResidualWatch& watch, std::span<const IterationRepo
               "take smaller steps");
 }
 
-std::optional<int> iterations_to_go(std::span<const IterationReport> history, double excess) {
-  constexpr std::size_t looked_at = 3;
-  if (history.size() < looked_at || !(excess > 1.0)) return std::nullopt;
-  const double rate =
-      std::log(history[history.size() - looked_at].absolute_residual / history.back().absolute_residual) /
-      (looked_at - 1);
-  if (!(rate > 0.0)) return std::nullopt;
-  const double needed = std::ceil(std::log(excess) / rate);
+std::optional<int> expected_iterations(std::span<const double> residuals, double limit) {
+  constexpr std::size_t left_out = 3, counted_twice = 3;
+  const std::size_t count = residuals.size();
+  if (count < telling_iterations) return std::nullopt;
+  double weights = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+  for (std::size_t k = left_out; k < count; ++k) {
+    const double weight = k + counted_twice >= count ? 2.0 : 1.0;
+    const double at = static_cast<double>(k), value = std::log(residuals[k]);
+    weights += weight;
+    x += weight * at;
+    y += weight * value;
+    xx += weight * at * at;
+    xy += weight * at * value;
+  }
+  const double slope = (weights * xy - x * y) / (weights * xx - x * x);
+  if (!(slope < 0.0)) return std::nullopt;
+  const double reached = (std::log(limit) - (y - slope * x) / weights) / slope;
   constexpr double beyond_hope = 1e6;
-  return needed < beyond_hope ? std::optional(static_cast<int>(needed)) : std::nullopt;
+  return reached < beyond_hope ? std::optional(static_cast<int>(std::lround(reached))) : std::nullopt;
 }
 
 }  // namespace comma::solver

@@ -1,6 +1,7 @@
 // What the residuals of a step tell before its iterations end (U4.34.03: DIVE_RESI, RESI_MAXI, ITER_SUPPL).
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "solver/nonlinear/static_analysis.hpp"
@@ -20,8 +21,9 @@ ResidualWatch residual_watch(const StepPlan& plan);
 /// `residual-too-large` beyond the limit.
 void look_at_residuals(const ResidualWatch& watch, std::span<const IterationReport> history);
 
-/// How many iterations it takes at the mean rate of the last three residuals until the last one has shrunk `excess`
-/// times; nothing where they do not shrink.
-std::optional<int> iterations_to_go(std::span<const IterationReport> history, double excess);
+/// After how many iterations, the prediction not counted, residuals are to fall to a limit: where the line reaches it
+/// that fits their logarithms best, the first three left out and the last three counted twice (17.3; 91 estimates that
+/// it prints). Nothing with fewer than `telling_iterations`, or where they do not shrink.
+std::optional<int> expected_iterations(std::span<const double> residuals, double limit);
 
 }  // namespace comma::solver

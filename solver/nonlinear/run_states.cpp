@@ -67,6 +67,9 @@ void StaticRun::keep_given(const InitialState& given, ResultStep& step) const {
   if (given.stresses) take_common_values(step.fields.at("SIEF_ELGA"), *given.stresses);
   if (const ElementField* variables = given.variables ? of_memory(&*given.variables) : nullptr)
     take_common_values(step.fields.at("VARI_ELGA"), *variables);
+  else if (given.stresses)
+    for (double& value : std::get<ElementField>(step.fields.at("VARI_ELGA")).values)
+      if (!std::isnan(value)) value = 0.0;
   if (given.displacement) take_common_values(step.fields.at("DEPL"), *given.displacement);  // multipliers too
   if (given.contact_fields.empty()) return;
   for (const auto& [name, field] : given.contact_fields)

@@ -128,7 +128,7 @@ struct NewtonOptions {
   std::function<void(double)> note_unconverged;  ///< set: steps that do not converge within those iterations stand all
                                                  ///< the same, and are told here by their instant (ARRET='NON')
   std::function<void(int, UnusedStresses)> note_unused_stresses;  ///< set: is told a cell where some have no effect
-  /// ITER_GLOB_ELAS: where it is more, of steps that are short enough to take the elastic stiffness.
+  /// ITER_GLOB_ELAS: of steps that are short enough to take the elastic stiffness instead.
   int max_elastic_iterations = 25;
   std::optional<LinearMethod> method;  ///< empty: chosen for the matrix
   LinearOptions linear;

@@ -13,7 +13,7 @@ namespace comma::solver {
 std::optional<int> StaticRun::try_step(double instant, StepSequence& sequence) {
   const Progress before = now_;
   const std::vector<char> closed_before = closed_points();
-  watch_->start_step();
+  const long iterations_before = counters_.newton_iterations;
   may_cut_ = sequence.may_be_cut();
   if (mixed_) mixed_->remember();
   try {
@@ -25,7 +25,9 @@ std::optional<int> StaticRun::try_step(double instant, StepSequence& sequence) {
   } catch (const Error& error) {
     const StepEvent* event = watch_->event_behind(error.code());
     if (event == nullptr && !is_failure_of_step(error.code())) throw advised(error, problem_, tangent_.unheld());
-    if (event ? !event->cutting || !sequence.cut(*event->cutting, watch_->share_of_step()) : !sequence.cut()) {
+    const int tried = static_cast<int>(counters_.newton_iterations - iterations_before);
+    event && event->increment ? sequence.reject(tried) : sequence.forget_easy_steps();
+    if (event ? !event->cutting || !sequence.cut(*event->cutting, tried) : !sequence.cut(tried)) {
       if (event && !event->cutting) throw;
       if (event) throw cut_no_further(error, sequence.depth());
       // In a part of a step contact has been settled already.

@@ -29,6 +29,11 @@ double factor_of(const AdaptationRule& rule, int iterations, double change) {
   return 1.0 + rule.growth;
 }
 
+/// How much of a part the first one lacks.
+double part_left_out(const StepCutting& rule, int iterations) {
+  return rule.automatic && iterations >= telling_iterations ? 0.5 : 0.0;
+}
+
 }  // namespace
 
 const StepEvent* StepPlan::event(StepEventKind kind) const {
@@ -41,14 +46,15 @@ StepSequence::StepSequence(StepPlan plan)
   for (std::size_t k = plan_.instants.size(); k-- > 1;) pending_.push_back({plan_.instants[k], 0});
   if (!pending_.empty()) length_ = pending_.back().instant - now_;
   if (!plan_.adaptation) return;
-  length_ = std::min(length_, plan_.adaptation->longest);
   easy_steps_.assign(plan_.adaptation->rules.size(), 0);
 }
 
 double StepSequence::adapted_target() const {
   const double wall = pending_.back().instant;
   const double wanted = now_ + length_;
-  return wanted >= wall - coincident_instants * (wall - now_) ? wall : wanted;
+  // No step that is shorter than the shortest is left before an instant of the list (17.3).
+  const double margin = std::max(coincident_instants * (wall - now_), plan_.adaptation->shortest);
+  return wanted >= wall - margin ? wall : wanted;
 }
 
 double StepSequence::planned_target() const { return plan_.adaptation ? adapted_target() : pending_.back().instant; }
@@ -73,25 +79,30 @@ void StepSequence::accept(int iterations, std::span<const double> changes) {
   now_ = reached;
   if (reached >= pending_.back().instant) pending_.pop_back();
   if (!plan_.adaptation) return;
-  if (++steps_ >= plan_.adaptation->most_steps && !finished())
-    throw Error("too-many-steps",
-                fmt::format("t = {:.6g} is reached after {} steps, the most that are allowed", now_, steps_),
-                "raise NB_PAS_MAXI or PAS_MINI");
+  if (++steps_ >= plan_.adaptation->most_steps) {
+    pending_.clear();
+    return;
+  }
   // What follows a step that an instant of the list made shorter adapts from the length of the one before it; the
   // change of a field counts as it was (Code_Aster 17.3).
   if (base_ == 0.0 || length >= length_ * (1.0 - coincident_instants)) base_ = length;
   adapt(iterations, changes);
 }
 
+void StepSequence::count_easy(int iterations) {
+  for (std::size_t k = 0; k < easy_steps_.size(); ++k)
+    if (is_easy(plan_.adaptation->rules[k], plan_.adaptation->usual_iterations, iterations)) ++easy_steps_[k];
+}
+
 void StepSequence::adapt(int iterations, std::span<const double> changes) {
   const StepAdaptation& adaptation = *plan_.adaptation;
+  count_easy(iterations);
   std::optional<double> factor;
   std::size_t read = 0;
   for (std::size_t k = 0; k < adaptation.rules.size(); ++k) {
     const AdaptationRule& rule = adaptation.rules[k];
     const double change = rule.increment && read < changes.size() ? changes[read++] : 0.0;
-    easy_steps_[k] = is_easy(rule, adaptation.usual_iterations, iterations) ? easy_steps_[k] + 1 : 0;
-    if (!rule.always && easy_steps_[k] < rule.in_a_row) continue;
+    if (!rule.always && easy_steps_[k] < rule.needed) continue;
     easy_steps_[k] = 0;
     factor = std::min(factor.value_or(std::numeric_limits<double>::infinity()), factor_of(rule, iterations, change));
   }
@@ -103,29 +114,29 @@ void StepSequence::adapt(int iterations, std::span<const double> changes) {
             "after t = {:.6g} the steps are to adapt to {:.6g}, shorter than the shortest allowed (PAS_MINI = {:.6g})",
             now_, length_ * *factor, adaptation.shortest),
         "lower PAS_MINI, or let steps shrink less (PCENT_AUGM, INCR_GRAN or NB_ITER_NEWTON_REF of ADAPTATION)");
-  if (factor) length_ = std::min(length_ * *factor, std::max(adaptation.shortest, adaptation.longest));
+  length_ = std::min(length_ * factor.value_or(1.0), std::max(adaptation.shortest, adaptation.longest));
   if (!finished() && now_ + length_ <= now_)
     throw Error("too-many-steps",
                 fmt::format("steps become shorter and shorter, and at t = {:.6g} the next one has no length", now_),
                 "give PAS_MINI, or let steps grow (PCENT_AUGM)");
 }
 
-bool StepSequence::cut() { return plan_.cutting && cut(*plan_.cutting); }
+bool StepSequence::cut(int iterations) { return plan_.cutting && cut(*plan_.cutting, iterations); }
 
 /// Its length; nothing where the step may not be cut.
-std::optional<double> StepSequence::first_part(const StepCutting& rule, double share) const {
-  const double first = (target() - now_) * (rule.automatic ? share : 1.0 / rule.parts);
+std::optional<double> StepSequence::first_part(const StepCutting& rule, int iterations) const {
+  const double left_out = part_left_out(rule, iterations);
+  const double first = (target() - now_) * ((1.0 - left_out) / (rule.parts - left_out));
   const double shortest = std::max(rule.shortest, plan_.adaptation ? plan_.adaptation->shortest : 0.0);
   if (first < shortest || now_ + first <= now_) return std::nullopt;
   if (!plan_.adaptation && depth() >= (rule.automatic ? automatic_depth : rule.depth)) return std::nullopt;
   return first;
 }
 
-bool StepSequence::cut(const StepCutting& rule, double share) {
-  const std::optional<double> first = first_part(rule, share);
+bool StepSequence::cut(const StepCutting& rule, int iterations) {
+  const std::optional<double> first = first_part(rule, iterations);
   if (!first) return false;
   const double end = target();
-  std::ranges::fill(easy_steps_, 0);
   if (plan_.adaptation) {
     cut_ends_.push_back(end);
     length_ = *first;
@@ -133,7 +144,7 @@ bool StepSequence::cut(const StepCutting& rule, double share) {
   }
   const int depth = pending_.back().depth;
   if (end >= pending_.back().instant) pending_.pop_back();
-  push_parts(rule, end, depth + 1, share);
+  push_parts(rule, end, depth + 1, iterations);
   return true;
 }
 
@@ -142,13 +153,11 @@ int StepSequence::depth() const {
   return static_cast<int>(std::ranges::count_if(cut_ends_, [&](double end) { return end > now_; }));
 }
 
-void StepSequence::push_parts(const StepCutting& rule, double end, int depth, double share) {
+void StepSequence::push_parts(const StepCutting& rule, double end, int depth, int iterations) {
+  const double left_out = part_left_out(rule, iterations);
+  const double length = (end - now_) / (rule.parts - left_out);
   pending_.push_back({end, depth});
-  if (rule.automatic) {
-    pending_.push_back({now_ + share * (end - now_), depth});
-    return;
-  }
-  for (int k = rule.parts - 1; k > 0; --k) pending_.push_back({now_ + k * ((end - now_) / rule.parts), depth});
+  for (int k = rule.parts - 1; k > 0; --k) pending_.push_back({now_ + (k - left_out) * length, depth});
 }
 
 }  // namespace comma::solver

@@ -1,6 +1,7 @@
 // Which instants are computed: those of a list, finer where a step fails, shorter or longer as the iterations go.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -18,12 +19,16 @@ struct StepCutting {
   int parts = 4;           ///< SUBD_PAS
   int depth = 3;           ///< SUBD_NIVEAU: how often a step and its parts may be cut
   double shortest = 0.0;   ///< s, SUBD_PAS_MINI: no part may be shorter
-  bool automatic = false;  ///< SUBD_METHODE='AUTO': into two, the first as long as what went wrong suggests, half where
-                           ///< it does not, `automatic_depth` times
+  bool automatic = false;  ///< SUBD_METHODE='AUTO': into `parts`, of which the first is half as long as the others
+                           ///< where the residuals of `telling_iterations` or more tell how they go on,
+                           ///< `automatic_depth` times (17.3)
 };
 
 /// How often a step may be cut where the program chooses the parts.
 inline constexpr int automatic_depth = 20;
+
+/// From so many residuals on a line through them tells when they will be small enough (17.3).
+inline constexpr int telling_iterations = 7;
 
 /// A field whose change in a step is watched.
 struct WatchedIncrement {
@@ -64,7 +69,7 @@ struct AdaptationRule {
   std::optional<int> few_iterations;  ///< VALE_I: with at most so many; absent: `usual_iterations`
   bool strict = false;                ///< CRIT_COMP LT, GE: with fewer
   bool beyond = false;                ///< CRIT_COMP GT, GE: with more instead
-  int in_a_row = 2;                   ///< NB_INCR_SEUIL: in so many steps one after the other
+  int needed = 2;                     ///< NB_INCR_SEUIL: in so many steps, with others in between or not (17.3)
   double growth = 1.0;                ///< PCENT_AUGM: longer by this share
   double least_factor = 0.0;          ///< of `increment`
   double most_factor = std::numeric_limits<double>::infinity();
@@ -115,14 +120,18 @@ class StepSequence {
   /// have ended later.
   int depth() const;
   /// It has converged, in so many iterations and with such largest changes of the watched fields, one a rule that
-  /// watches one. Throws Error `too-many-steps` beyond StepAdaptation::most_steps.
+  /// watches one. After StepAdaptation::most_steps the sequence is finished, wherever it is.
   void accept(int iterations, std::span<const double> changes = {});
-  /// It has failed: false when it may not be cut, else the next target is nearer. By the plan's rule, or by another;
-  /// `share`: how long the first part of an automatic cut should be.
-  bool cut();
+  /// It has converged in so many iterations, and is to be cut all the same: it counts among the easy ones (17.3).
+  void reject(int iterations) { count_easy(iterations); }
+  /// It has failed: those before it do not count as easy any more.
+  void forget_easy_steps() { std::ranges::fill(easy_steps_, 0); }
+  /// False when it may not be cut, else the next target is nearer. By the plan's rule, or by another, after so many
+  /// iterations.
+  bool cut(int iterations = 0);
   /// Whether cut() would.
-  bool may_be_cut() const { return plan_.cutting && first_part(*plan_.cutting, 0.5).has_value(); }
-  bool cut(const StepCutting& rule, double share = 0.5);
+  bool may_be_cut() const { return plan_.cutting && first_part(*plan_.cutting, 0).has_value(); }
+  bool cut(const StepCutting& rule, int iterations = 0);
   /// Steps from here on are no longer than these; false where this one is not.
   bool refine(const CollisionSteps& around);
 
@@ -134,9 +143,10 @@ class StepSequence {
 
   double planned_target() const;
   double adapted_target() const;
-  std::optional<double> first_part(const StepCutting& rule, double share) const;
-  void push_parts(const StepCutting& rule, double end, int depth, double share);
+  std::optional<double> first_part(const StepCutting& rule, int iterations) const;
+  void push_parts(const StepCutting& rule, double end, int depth, int iterations);
   void adapt(int iterations, std::span<const double> changes);
+  void count_easy(int iterations);
 
   StepPlan plan_;
   double now_;
@@ -146,7 +156,7 @@ class StepSequence {
   std::vector<double> cut_ends_;  ///< s, of adapted steps that were cut
   CollisionSteps around_;
   double fine_until_;            ///< s: no step before it is longer than that of `around_`
-  std::vector<int> easy_steps_;  ///< one after the other, by rule
+  std::vector<int> easy_steps_;  ///< since the rule last held or a step failed, by rule
   long steps_ = 0;
 };
 

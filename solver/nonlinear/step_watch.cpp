@@ -38,8 +38,6 @@ void StepWatch::compare(double instant, const ResultStep& now) {
   const double change = largest_change(limited_->values, watched_values(watched, now, mesh_));
   constexpr double rounding = 1e-9;
   if (change <= watched.wanted * (1.0 + rounding)) return;
-  constexpr double least_share = 0.05;
-  share_ = std::clamp(watched.wanted / change, least_share, 1.0 - least_share);
   throw Error("increment-too-large",
               fmt::format("t = {:.6g}: {} of {} changes by {:.4g} in one step, more than the {:.4g} allowed", instant,
                           watched.component, watched.field, change, watched.wanted),

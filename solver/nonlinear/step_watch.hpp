@@ -20,9 +20,6 @@ class StepWatch {
   /// The event of the plan that an error stands for; null: none.
   const StepEvent* event_behind(std::string_view code) const;
 
-  /// Nothing is known of the next step yet.
-  void start_step() { share_ = half_a_step; }
-
   /// `step` is what the next one is compared with: it has been accepted, or the computation begins from it. Throws what
   /// watched_values throws.
   void take(const ResultStep& step);
@@ -34,9 +31,6 @@ class StepWatch {
     if (limited_) compare(instant, now());
   }
 
-  /// How much of the last step that was checked might have been gone.
-  double share_of_step() const { return share_; }
-
   /// Of the fields that adapt steps, one a rule, in the step that was taken last.
   std::vector<double> changes() const;
 
@@ -47,14 +41,10 @@ class StepWatch {
     double change = 0.0;         ///< in that step
   };
 
-  /// Where nothing tells how far a step might have gone.
-  static constexpr double half_a_step = 0.5;
-
   void compare(double instant, const ResultStep& now);
 
   const StepPlan& plan_;
   const Mesh& mesh_;
-  double share_ = half_a_step;
   std::optional<WatchedField> limited_;
   std::vector<WatchedField> adapting_;
 };

@@ -201,6 +201,16 @@ void check_surface(const PlasticPoint& point) {
               "look at the constant of PRAGER, or at D_SIGM_EPSI");
 }
 
+PowerCurve power_curve(const PowerHardening& law, double young, const MaterialPoint& at) {
+  const double yield = law.yield(at), power = 1.0 / law.exponent(at);
+  return {yield, yield * std::pow(young / (law.factor(at) * yield), power), power};
+}
+
+NonlinearHardening nonlinear_curve(const NonlinearHardeningOf<Property>& law, const MaterialPoint& at) {
+  return {law.initial(at),     law.slope(at),        law.first(at),        law.first_rate(at), law.second(at),
+          law.second_rate(at), law.power_factor(at), law.power_offset(at), law.power(at),      law.plateau(at)};
+}
+
 bool is_mixed(Relation relation) { return relation == Relation::mixed_linear || relation == Relation::mixed_traction; }
 
 PlasticPoint point_of_relation(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation,
@@ -253,14 +263,12 @@ PlasticPoint point_of_relation(const IsotropicElasticity& elasticity, const Plas
     case Relation::isotropic_power:
     case Relation::reversible_power: {
       if (!plasticity.power) throw_missing(keyword_of(relation));
-      const PowerHardening& law = *plasticity.power;
-      const double power = 1.0 / law.exponent;
-      point.curve = PowerCurve{law.yield, law.yield * std::pow(elastic.young / (law.factor * law.yield), power), power};
+      point.curve = power_curve(*plasticity.power, elastic.young, at);
       return point;
     }
     case Relation::isotropic_nonlinear:
       if (!plasticity.nonlinear) throw_missing(keyword_of(relation));
-      point.curve = *plasticity.nonlinear;
+      point.curve = nonlinear_curve(*plasticity.nonlinear, at);
       return point;
   }
   return point;

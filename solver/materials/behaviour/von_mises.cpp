@@ -52,12 +52,14 @@ void subtract_flow(Matrix6d& d, const PlasticModuli& now, const Vector6d& normal
   d -= (4.0 * now.shear * now.shear * factor) * normal * normal.transpose();
 }
 
-/// What flows goes on flowing: along `relative`, s - X.
+/// What flows goes on flowing: along `relative`, s - X, over the radius where the centre moves, over its own length
+/// where it stays (17.3; the same unless moduli or the radius have changed since the last step).
 void flow_on(Matrix6d& d, const PlasticPoint& now, const Vector6d& relative, double p) {
   const double size = std::sqrt(1.5 * double_product(relative, relative));
   if (!(size > 0.0)) return;
-  subtract_flow(d, now, 1.5 / size * relative,
-                1.0 / (3.0 * now.shear + 1.5 * now.kinematic + hardening(now.curve, p).second));
+  const auto [radius, slope] = hardening(now.curve, p);
+  subtract_flow(d, now, 1.5 / (now.kinematic > 0.0 ? radius : size) * relative,
+                1.0 / (3.0 * now.shear + 1.5 * now.kinematic + slope));
 }
 
 /// The matrix where no stress crosses the plane.

@@ -26,13 +26,13 @@ Plasticity metal() {
   curve.right = Extension::linear;
   plasticity.traction = TractionHardening{{}, {curve}, {}, {}};
   plasticity.power = PowerHardening{yield, 0.3, 4.0};
-  plasticity.nonlinear = NonlinearHardening{.initial = yield,
-                                            .slope = 500.0,
-                                            .first = 120.0,
-                                            .first_rate = 30.0,
-                                            .power_factor = 40.0,
-                                            .power_offset = 1e-3,
-                                            .power = 0.4};
+  plasticity.nonlinear = NonlinearHardeningOf<Property>{.initial = yield,
+                                                        .slope = 500.0,
+                                                        .first = 120.0,
+                                                        .first_rate = 30.0,
+                                                        .power_factor = 40.0,
+                                                        .power_offset = 1e-3,
+                                                        .power = 0.4};
   return plasticity;
 }
 
@@ -244,12 +244,14 @@ TEST_CASE("a material that lacks what the law needs, or whose curve is off the e
   for (const Relation relation : {Relation::isotropic_linear, Relation::kinematic_linear})
     CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, relation, MaterialPoint()),
                       Catch::Contains("the yield stress is -1,"));
-  plasticity.nonlinear = NonlinearHardening{.initial = 1.0, .power_factor = 1.0, .power_offset = -1.0, .power = 0.5};
+  plasticity.nonlinear =
+      NonlinearHardeningOf<Property>{.initial = 1.0, .power_factor = 1.0, .power_offset = -1.0, .power = 0.5};
   CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_nonlinear, MaterialPoint()),
                     Catch::Contains("not a number"));
   plasticity.nonlinear->power_offset = 0.0;
   CHECK_NOTHROW(plastic_point(elasticity, plasticity, Relation::isotropic_nonlinear, MaterialPoint()));
-  plasticity.nonlinear = NonlinearHardening{.initial = 1.0, .power_factor = 1.0, .power_offset = 1e-9, .power = -0.5};
+  plasticity.nonlinear =
+      NonlinearHardeningOf<Property>{.initial = 1.0, .power_factor = 1.0, .power_offset = 1e-9, .power = -0.5};
   CHECK_THROWS_WITH(plastic_point(elasticity, plasticity, Relation::isotropic_nonlinear, MaterialPoint()),
                     Catch::Contains("steeper than the stress can follow"));
   plasticity = metal();

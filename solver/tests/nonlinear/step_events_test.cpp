@@ -78,12 +78,17 @@ TEST_CASE("residuals that grow twice, or beyond a limit, end a step where that i
   CHECK_THROWS_WITH(look_at_residuals(watch, history_of({4.1})), Catch::Contains("RESI_GLOB_MAXI = 4"));
 }
 
-TEST_CASE("residuals promise an end at the rate of the last three") {
-  CHECK(iterations_to_go(history_of({1.0, 1e-1, 1e-2}), 1e3) == 3);
-  CHECK(iterations_to_go(history_of({9.0, 1.0, 0.5, 0.25}), 5.0) == 3);
-  CHECK_FALSE(iterations_to_go(history_of({1.0, 1e-1}), 1e3));
-  CHECK_FALSE(iterations_to_go(history_of({1.0, 1.0, 1.0}), 1e3));
-  CHECK_FALSE(iterations_to_go(history_of({1.0, 2.0, 3.0}), 1e3));
+/// Code_Aster 17.3 expects 33 from the first ten on, 12 from the other series.
+TEST_CASE("residuals promise an end along the line that fits them") {
+  const std::vector<double> slow = {2.58876e-1, 1.89235e-1, 1.27514e-1, 8.49958e-2, 5.72966e-2,
+                                    3.8967e-2,  2.66144e-2, 1.82347e-2, 1.25195e-2, 8.60843e-3};
+  CHECK(expected_iterations(slow, 1e-6) == 33);
+  CHECK(expected_iterations(std::span(slow).first(7), 1e-6) == 32);
+  CHECK_FALSE(expected_iterations(std::span(slow).first(6), 1e-6));
+  const std::vector<double> fast = {1.05694e-2, 5.05622e-3, 2.34649e-3, 1.07566e-3, 4.92037e-4,
+                                    2.24936e-4, 1.02804e-4, 4.69784e-5, 2.14661e-5, 9.80817e-6};
+  CHECK(expected_iterations(fast, 1e-6) == 12);
+  CHECK_FALSE(expected_iterations(std::vector<double>(8, 1.0), 1e-3));
 }
 
 TEST_CASE("what looks on may take the watched field away from the result") {
@@ -109,7 +114,7 @@ TEST_CASE("what looks on may take the watched field away from the result") {
   CHECK(instants_of(bared.result) == instants_of(kept.result));
 }
 
-TEST_CASE("a step that changes a field too much is cut as long as it may be") {
+TEST_CASE("a step that changes a field too much is cut until it does not") {
   StepPlan plan({0.0, 1.0});
   plan.events.push_back(event_of(StepEventKind::increment));
   plan.events.front().increment = WatchedIncrement{"DEPL", "DY", {}, {}, 1.0};
@@ -123,7 +128,7 @@ TEST_CASE("a step that changes a field too much is cut as long as it may be") {
   REQUIRE(instants.back() == 1.0);
   // The deflection grows by 5 a unit of time.
   for (std::size_t k = 1; k < instants.size(); ++k) CHECK(instants[k] - instants[k - 1] <= exactly(0.2));
-  CHECK(instants.size() <= 8);
+  CHECK(instants.size() <= 17);
   CHECK(arrived == Approx(Cantilever().solve(StepPlan(instants), 30)).epsilon(1e-8));
 }
 
@@ -138,15 +143,21 @@ TEST_CASE("a step whose residual is too large is cut by the rule of that event")
 }
 
 TEST_CASE("where residuals shrink fast enough more iterations are allowed") {
-  const StepPlan plan({0.0, 0.5, 1.0});
+  const StepPlan plan({0.0, 0.02});
+  NewtonOptions options;
+  options.relative_residual = 1e-9;
+  options.max_iterations = 200;
+  options.tangent.iterations = 0;  // so that they shrink by the same factor each time
   int most = 0;
-  const double exact =
-      Cantilever().solve(plan, 30, [&](const IterationReport& report) { most = std::max(most, report.iteration); });
-  CHECK_THROWS_WITH(Cantilever().solve(plan, most - 1), Catch::Contains("no convergence"));
+  const double exact = Cantilever().solve(
+      plan, options, [&](const IterationReport& report) { most = std::max(most, report.iteration); });
+  REQUIRE(most > 8);
+  options.max_iterations = most - 1;
+  CHECK_THROWS_WITH(Cantilever().solve(plan, options), Catch::Contains("no convergence"));
   StepPlan patient = plan;
   patient.further_iterations = 1.0;
   std::string told;
-  CHECK(Cantilever().solve(patient, most - 1, [&](const IterationReport& report) { told += report.event; }) ==
+  CHECK(Cantilever().solve(patient, options, [&](const IterationReport& report) { told += report.event; }) ==
         Approx(exact).epsilon(1e-12));
   CHECK_THAT(told, Catch::Contains("more iterations are allowed"));
 }

@@ -60,20 +60,20 @@ TEST_CASE("cutting ends at the depth and at the shortest step allowed") {
   CHECK(last == 0.25);
 }
 
-TEST_CASE("a step may be cut in two where the program chooses the parts") {
-  StepSequence sequence(StepPlan({0.0, 1.0}));
+/// 17.3: a quarter after six residuals; after seven 1/7 and three times 2/7.
+TEST_CASE("where the program chooses the parts a first half one tries whether shorter steps do") {
   StepCutting rule;
   rule.automatic = true;
-  CHECK(sequence.cut(rule, 0.3));
-  CHECK(sequence.target() == 0.3);
-  sequence.accept(1);
-  CHECK(sequence.target() == 1.0);
-  CHECK(sequence.cut(rule));
-  CHECK(sequence.target() == exactly(0.65));
-  int cuts = 2;
-  while (sequence.cut(rule)) ++cuts;
-  CHECK(cuts > 10);
-  CHECK(cuts <= automatic_depth + 1);
+  StepSequence short_history(StepPlan({0.0, 1.0}));
+  CHECK(short_history.cut(rule, 6));
+  CHECK(short_history.target() == 0.25);
+  StepSequence sequence(StepPlan({0.0, 1.0}));
+  CHECK(sequence.cut(rule, 7));
+  for (int k = 0; k < 4; ++k, sequence.accept(1)) CHECK(sequence.target() == exactly((2 * k + 1) / 7.0));
+  StepSequence failing(StepPlan({0.0, 1.0}));
+  int cuts = 0;
+  while (failing.cut(rule)) ++cuts;
+  CHECK(cuts == automatic_depth);
 }
 
 TEST_CASE("for a while steps are no longer than a length, and meet the instants of the list") {
@@ -95,7 +95,7 @@ TEST_CASE("hard steps make the next ones shorter where that is asked for") {
   plan.adaptation = StepAdaptation{};
   plan.adaptation->rules[0].beyond = true;
   plan.adaptation->rules[0].few_iterations = 5;
-  plan.adaptation->rules[0].in_a_row = 1;
+  plan.adaptation->rules[0].needed = 1;
   plan.adaptation->rules[0].growth = -0.5;
   CHECK(walk(plan, 6, never) == std::vector<double>{1.0, 2.0});
   const std::vector<double> hard = walk(plan, 7, [](double now, double) { return now > 1.9; });
@@ -112,17 +112,30 @@ TEST_CASE("easy steps grow, and still meet the instants of the list") {
   plan.adaptation = StepAdaptation{};
   // 1 and 2 are easy, so the next is twice as long; the one after meets the wall at 8.
   CHECK(walk(plan, 3, never) == std::vector<double>{1.0, 2.0, 4.0, 6.0, 8.0, 9.0});
-  plan.adaptation->longest = 1.0;
-  CHECK(walk(plan, 3, never) == std::vector<double>{1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0});
+  // The first step is that of the list, however long.
+  plan.adaptation->longest = 0.5;
+  const std::vector<double> bounded = walk(plan, 3, never);
+  CHECK(std::vector(bounded.begin(), bounded.begin() + 3) == std::vector<double>{1.0, 1.5, 2.0});
   plan.adaptation->most_steps = 4;
-  CHECK_THROWS_WITH(walk(plan, 3, never), Catch::Contains("after 4 steps"));
+  CHECK(walk(plan, 3, never) == std::vector<double>{1.0, 1.5, 2.0, 2.5});
+}
+
+TEST_CASE("no step shorter than the shortest is left before an instant of the list") {
+  StepPlan plan({0.0, 1.0, 2.9});
+  plan.adaptation = StepAdaptation{};
+  plan.adaptation->rules[0].always = true;
+  plan.adaptation->rules[0].growth = 0.8;
+  plan.adaptation->shortest = 0.05;
+  CHECK(walk(plan, 3, never) == std::vector<double>{1.0, 2.8, 2.9});
+  plan.adaptation->shortest = 0.2;
+  CHECK(walk(plan, 3, never) == std::vector<double>{1.0, 2.9});
 }
 
 TEST_CASE("of several rules for steps the one that makes them shortest counts") {
   StepPlan plan({0.0, 1.0, 20.0});
   plan.adaptation = StepAdaptation{};
   plan.adaptation->rules.assign(2, AdaptationRule());
-  plan.adaptation->rules[0].in_a_row = 1;
+  plan.adaptation->rules[0].needed = 1;
   plan.adaptation->rules[1].growth = 0.5;
   // Doubled after the first step; after the second both rules hold.
   CHECK(walk(plan, 3, never) == std::vector<double>{1.0, 3.0, 6.0, 12.0, 20.0});
