@@ -358,24 +358,32 @@ class ContinuumBlock : public ElementBlock {
     if constexpr (Axisymmetric) force.col(0) += sample.values * (stress(2) / point.radius);
   }
 
+  /// Direction by direction, over all nodes at once.
   void element_stiffness(int element, const VariableState& state, Stiffness& k) const {
+    using ByNode = Eigen::Matrix<double, Nodes, strains>;
     const Coordinates x = coordinates(element);
-    k.setZero();
-    std::array<StrainRow, Nodes> rows;
+    std::array<std::array<Eigen::Matrix<double, Nodes, Nodes>, Dim>, Dim> blocks;  // of two directions, i >= j
+    for (auto& row : blocks)
+      for (auto& block : row) block.setZero();
     for (int g = 0; g < point_count(); ++g) {
-      const Sample& sample = samples_[g];
       const Behaviour behaviour(*this, element, g, x, state);
-      const Law& d = *behaviour.law;
-      const Point point = locate(x, sample);
-      for (int a = 0; a < Nodes; ++a) rows[a] = strain_row(sample, point, a);
-      for (int b = 0; b < Nodes; ++b) {
-        const StrainRow stress = point.weight * (d * rows[b]);
-        for (int a = b; a < Nodes; ++a) {
-          k.template block<Dim, Dim>(a * Dim, b * Dim).noalias() += rows[a].transpose() * stress;
-        }
+      const Point point = locate(x, samples_[g]);
+      const Law law = point.weight * *behaviour.law;
+      std::array<ByNode, Dim> caused;  // the strains that displacements along a direction cause
+      for (int a = 0; a < Nodes; ++a) {
+        const StrainRow row = strain_row(samples_[g], point, a);
+        for (int i = 0; i < Dim; ++i) caused[i].row(a) = row.col(i).transpose();
+      }
+      for (int i = 0; i < Dim; ++i) {
+        const ByNode stresses = caused[i].lazyProduct(law);
+        for (int j = 0; j <= i; ++j) blocks[i][j] += stresses.lazyProduct(caused[j].transpose());
       }
     }
-    k.template triangularView<Eigen::StrictlyUpper>() = k.transpose();
+    for (int i = 0; i < Dim; ++i)
+      for (int j = 0; j <= i; ++j)
+        for (int a = 0; a < Nodes; ++a)
+          for (int b = 0; b < Nodes; ++b)
+            k(a * Dim + i, b * Dim + j) = k(b * Dim + j, a * Dim + i) = blocks[i][j](a, b);
     make_translation_exact<Nodes, Dim>(k, invariant_directions());
   }
 

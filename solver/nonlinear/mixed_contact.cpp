@@ -92,34 +92,7 @@ void MixedContact::face(Positions positions, double time, double margin) {
   for (std::size_t p = 0; p < points().size(); ++p)
     if (problem_.points[p].rows == 0) state_.statuses[p] = ContactStatus::open;
   close_slides();
-  forces_ = multiplier_forces(problem_, state_,
-                              rows_.full().rows());  // any would do for the next correction to start from
-}
-
-void MixedContact::accept_step(double duration) {
-  rates_ = (state_.multipliers - start_) / duration;
-  if (is_secant()) carry_contact();
-}
-
-void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
-  secants_.predicts = is_secant();
-  if (is_secant()) secants_.held = forces_;
-  secants_.linearisations = 0;
-  next_geometry_.reset();
-  if (secants_.predicts && started_) begin_secants();
-  reference_ = faced_at_ = u;
-  step_begins_ = true;
-  if (started_) {
-    began_closed_ = closed_points();
-    hold_points();
-  }
-  augmentation_share_ = 1.0;
-  opens_by_gaps_ = false;
-  adapted_.start_step(closed_count() > 0);
-  apply_penalties();
-  problem_.expected = state_.multipliers + duration * rates_;
-  start_ = state_.multipliers;
-  rows_.count_slips(problem_.points, reference_);
+  start_forces(time);
 }
 
 /// Friction in the mixed formulation has shares of its limit for multipliers. Where all points that rub on a multiplier

@@ -17,6 +17,7 @@
 #include "solver/nonlinear/solved_contact.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/nonlinear/tangent_system.hpp"
+#include "solver/unilateral/multiplier_course.hpp"
 #include "solver/unilateral/schur_complement.hpp"
 
 namespace comma::solver {
@@ -43,7 +44,8 @@ class MixedContact {
   /// A step of that duration begins at u: slips are counted from there, and multipliers are expected to go on as in the
   /// step before.
   void start_step(const Eigen::VectorXd& u, double duration);
-  void accept_step(double duration);
+  /// The step from one instant to another stands as it is.
+  void accept_step(double from, double instant);
   /// Pressures, statuses and penalties as they are before a step, and back to them when it fails; points must be faced
   /// anew then.
   void remember() { remembered_ = {state_, penalties_, adapted_, started_, resumed_, secants_}; }
@@ -172,6 +174,7 @@ class MixedContact {
   };
 
   void face(Positions positions, double time, double margin);
+  void start_forces(double time);
   int face_and_linearise(const Eigen::VectorXd& u, double time);
   int linearise_secants(const Eigen::VectorXd& u);
   bool rubs_loosely() const;
@@ -254,6 +257,7 @@ class MixedContact {
   Eigen::VectorXd faced_at_;  ///< u where `linearise` faced the points; at first the beginning of the step
   double geometry_change_ = 0.0;
   Eigen::VectorXd start_;               ///< multipliers when the step began
+  MultiplierCourse course_;             ///< of accepted steps
   Eigen::VectorXd rates_;               ///< of multipliers, in the last step that was accepted
   std::vector<char> began_closed_;      ///< points, when the step began
   bool step_begins_ = false;            ///< and no point has been faced in it

@@ -74,7 +74,7 @@ void NewtonSolver::start_step(double duration) {
 int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::VectorXd offset,
                         const ConditionSet& conditions, int earlier, int active_set_limit, NewtonState& state) {
   active_set_limit_ = active_set_limit;
-  take_conditions(conditions, offset, state);
+  take_conditions(time, conditions, offset, state);
   start(external, offset, state);
   std::vector<IterationReport> history;
   int most = std::max(1, most_iterations_ - earlier);
@@ -101,6 +101,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
       if (!is_linear && !relations_.update) polish(state, external, offset);
       require_at_hand(time, state.u);
       criterion_.take_up(load_);
+      course_.note(time, state.multipliers);
       return iteration;
     }
     if (!std::isfinite(measure.absolute)) break;
@@ -165,7 +166,7 @@ void NewtonSolver::forget_compliance() {
   if (mixed_) mixed_->forget();
 }
 
-void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset,
+void NewtonSolver::take_conditions(double time, const ConditionSet& conditions, const Eigen::VectorXd& offset,
                                    const NewtonState& state) {
   conditions_ = &conditions;
   reduced_ =
@@ -181,10 +182,14 @@ void NewtonSolver::take_conditions(const ConditionSet& conditions, const Eigen::
   } else {
     schur_->replace_rows(reduced_.inequalities.rows, slots, reduced_.inequalities.softness);
   }
+  // Of linear bodies the solution does not depend on where it is sought from, and with an exact compliance nor does the
+  // work.
+  const bool expects = tangent_.is_constant() && !schur_->is_exact();
+  const Eigen::VectorXd multipliers = expects ? course_.expected(time, state.multipliers) : state.multipliers;
   row_multipliers_.resize(static_cast<Eigen::Index>(reduced_.origin.size()));
   active_.clear();
   for (std::size_t row = 0; row < reduced_.origin.size(); ++row) {
-    const double multiplier = state.multipliers[conditions.row_slots[reduced_.origin[row]]];
+    const double multiplier = multipliers[conditions.row_slots[reduced_.origin[row]]];
     row_multipliers_[static_cast<Eigen::Index>(row)] = multiplier;
     if (multiplier > 0.0) active_.push_back(static_cast<int>(row));
   }

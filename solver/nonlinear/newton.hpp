@@ -19,6 +19,7 @@
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/nonlinear/tangent_system.hpp"
 #include "solver/unilateral/active_set.hpp"
+#include "solver/unilateral/multiplier_course.hpp"
 #include "solver/unilateral/schur_complement.hpp"
 
 namespace comma::solver {
@@ -106,7 +107,8 @@ class NewtonSolver {
 
   TangentKind kind_of(int iteration) const;
   void start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
-  void take_conditions(const ConditionSet& conditions, const Eigen::VectorXd& offset, const NewtonState& state);
+  void take_conditions(double time, const ConditionSet& conditions, const Eigen::VectorXd& offset,
+                       const NewtonState& state);
   void forget_compliance();
   Correction correct(NewtonState& state, const Eigen::VectorXd& offset);
   void require_at_hand(double time, const Eigen::VectorXd& u) const;
@@ -162,6 +164,7 @@ class NewtonSolver {
   ReducedInequalities reduced_;
   std::unique_ptr<SchurComplement> schur_;
   ActiveSetMemory memory_;
+  MultiplierCourse course_;          ///< of steps that have converged
   Eigen::VectorXd row_multipliers_;  ///< one a reduced row
   std::vector<int> active_;          ///< reduced rows
   Eigen::VectorXd residual_;         ///< reduced

@@ -1,4 +1,5 @@
-// The part of MixedContact that goes on from an earlier computation, and remembers for a later one.
+// The part of MixedContact that goes on from step to step, and from an earlier computation, and remembers for a later
+// one.
 #include <algorithm>
 #include <memory>
 #include <utility>
@@ -8,6 +9,41 @@
 #include "solver/nonlinear/mixed_contact.hpp"
 
 namespace comma::solver {
+
+/// Any would do for the next correction to start from; with a compliance that is not exact the nearest cost least.
+void MixedContact::start_forces(double time) {
+  CondensedState state = state_;
+  if (problem_.components == 1 && !is_linear() && tangent_.is_constant() && schur_ && !schur_->is_exact())
+    state.multipliers = course_.expected(time, state_.multipliers);
+  forces_ = multiplier_forces(problem_, state, rows_.full().rows());
+}
+
+void MixedContact::accept_step(double from, double instant) {
+  rates_ = (state_.multipliers - start_) / (instant - from);
+  course_.note(instant, state_.multipliers);
+  if (is_secant()) carry_contact();
+}
+
+void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
+  secants_.predicts = is_secant();
+  if (is_secant()) secants_.held = forces_;
+  secants_.linearisations = 0;
+  next_geometry_.reset();
+  if (secants_.predicts && started_) begin_secants();
+  reference_ = faced_at_ = u;
+  step_begins_ = true;
+  if (started_) {
+    began_closed_ = closed_points();
+    hold_points();
+  }
+  augmentation_share_ = 1.0;
+  opens_by_gaps_ = false;
+  adapted_.start_step(closed_count() > 0);
+  apply_penalties();
+  problem_.expected = state_.multipliers + duration * rates_;
+  start_ = state_.multipliers;
+  rows_.count_slips(problem_.points, reference_);
+}
 
 /// How zones are defined, without points.
 std::vector<ZoneMemory> MixedContact::zone_definitions() const {

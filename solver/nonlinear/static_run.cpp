@@ -90,7 +90,7 @@ void StaticRun::run(const StepPlan& plan) {
     if (!iterations) continue;
     newton_.accept_step();
     if (tangent_.is_indefinite() && !takes_plain_tangents_) ++counters_.indefinite_solutions;
-    if (mixed_) mixed_->accept_step(instant - from);
+    if (mixed_) mixed_->accept_step(from, instant);
     if (path_) path_->accept_step(now_.state.u);
     mixed_ ? mixed_->note_doubts(now_.state.u, doubts_) : newton_.note_doubts(now_.state, doubts_);
     note_doubts_about_surfaces(instant);

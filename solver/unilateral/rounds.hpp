@@ -11,13 +11,15 @@ namespace comma::solver {
 /// Conditions hold when a round changes forces by less than this share of the largest: another round would gain three
 /// digits or more.
 inline constexpr double negligible_change = 1e-10;
+/// Or when the next round would change less than this, going by what the last two have gained.
+inline constexpr double negligible_rest = 5e-13;
 /// Rounds with one compliance: each costs a solution.
 inline constexpr int most_rounds = 20;
 
 /// `settle`() solves the conditions with S as it is, moves the bodies, and returns by how much forces changed as a
 /// share of the largest; nothing where an S that is not exact has led to no solution. One round is all with an exact S;
-/// else there are more until the change is negligible, and where it does not shrink to half from round to round, S is
-/// made anew.
+/// else there are more until the change is negligible, or the next one would be, and where it does not shrink to half
+/// from round to round, S is made anew.
 template <class Settle>
 void settle_in_rounds(SchurComplement& schur, Settle&& settle) {
   double last = std::numeric_limits<double>::infinity();
@@ -25,6 +27,7 @@ void settle_in_rounds(SchurComplement& schur, Settle&& settle) {
     const bool is_exact = schur.is_exact();
     const std::optional<double> change = settle();
     if (is_exact || (change && *change <= negligible_change)) return;
+    if (round > 1 && change && *change * *change <= negligible_rest * last) return;
     if (!change || *change > 0.5 * last || round == most_rounds) schur.start_anew();
     last = change.value_or(last);
   }
