@@ -186,8 +186,9 @@ Eigen::VectorXd Assembler::starting_forces(const Eigen::VectorXd& u) const {
   return with_initial(blocks_->sum(&ElementBlock::add_starting_forces, u, state_));
 }
 
-Eigen::VectorXd Assembler::variable_forces(const Eigen::VectorXd& u) const {
-  return state_.empty() && !imposed_ ? Eigen::VectorXd() : blocks_->sum(&ElementBlock::add_variable_forces, u, state_);
+Eigen::VectorXd Assembler::variable_forces() const {
+  if (state_.empty() && !imposed_) return {};
+  return blocks_->sum(&ElementBlock::add_variable_forces, Eigen::VectorXd::Zero(dofs_.size()), state_);
 }
 
 Eigen::VectorXd Assembler::residual_weights() const {

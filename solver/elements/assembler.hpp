@@ -121,9 +121,10 @@ class Assembler {
   SymmetricMatrix starting_stiffness(const Eigen::VectorXd& u) const;
   Eigen::VectorXd starting_forces(const Eigen::VectorXd& u) const;
 
-  /// The forces (n) at u with which elastic materials would hold up the strains of the command variables, and laws with
-  /// a memory imposed ones; empty where none is given. Linear statics read K u = f_ext + f_strains.
-  Eigen::VectorXd variable_forces(const Eigen::VectorXd& u) const;
+  /// The forces (n) with which elastic materials would hold up the strains of the command variables, and laws with a
+  /// memory imposed ones, on the initial geometry, in large strains too (Code_Aster 17.3); empty where none is given.
+  /// Linear statics read K u = f_ext + f_strains.
+  Eigen::VectorXd variable_forces() const;
 
   /// External forces (n) of the loads at a time (see external_forces.hpp), on the initial geometry; initial strains
   /// take part as the forces of the stresses that would undo them, initial stresses by their own.

@@ -151,7 +151,7 @@ void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd&
   const Eigen::VectorXd imposed = moved - state.u;
   const bool is_linear = tangent_.is_constant();
   if (is_linear) state.u = moved;
-  variable_forces_ = assembler_.variable_forces(state.u);
+  variable_forces_ = assembler_.variable_forces();
   weights_.take(assembler_, elimination_);
   const bool is_other =
       is_short_ && tangent_.kind() != policy_.correction;  // one that is not due goes on from a step of normal length

@@ -87,7 +87,7 @@ int PathFollowing::solve(double time, double duration, const DrivenLoads& loads,
                          VectorXd& u) {
   time_ = time;
   start_ = u;
-  variable_forces_ = assembler_.variable_forces(u);
+  variable_forces_ = assembler_.variable_forces();
   weights_.take(assembler_, elimination_);
   intensity_ = accepted_;
   ended_ = false;
