@@ -21,11 +21,12 @@ void warn_of_indefinite_stiffness(const interpreter::Call& call, const solver::C
 void warn_of_contact(const interpreter::Call& call, const solver::StaticProblem& problem,
                      const solver::ContactDoubts& doubts, Context& context);
 
-/// Alarm `not-converged`: steps that stand all the same (ARRET='NON'), by their instants.
-/// Steps that adapt end before the last instant of the list, at the most that are allowed (NB_PAS_MAXI).
+/// Alarm `steps-used-up`: steps that adapt end before the last instant of the list, at the most that are allowed
+/// (NB_PAS_MAXI).
 void warn_of_used_up_steps(const interpreter::Call& call, const solver::StepPlan& plan, const ResultConcept& product,
                            Context& context);
 
+/// Alarm `not-converged`: steps that stand all the same (ARRET='NON'), by their instants.
 void warn_of_unconverged_steps(const interpreter::Call& call, const std::set<double>& instants, Context& context);
 
 /// Alarm `unused-stresses`: what ETAT_INIT gives as SIGM is not what its other fields make of the stresses, of a law

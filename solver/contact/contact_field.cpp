@@ -63,14 +63,17 @@ double status_of(const NodeContact& contact, const Eigen::Vector3d& place) {
   return contact.closed ? sliding : open;
 }
 
-void write_state(const NodeContact& contact, Positions positions, double* row) {
-  const ContactPair& pair = contact.pair;
-  row[cont] = status_of(contact, positions[pair.slave]);
-  row[jeu] = contact.gap;
+void write_places(const NodeContact& contact, Positions positions, double* row) {
   for (int axis = 0; axis < 3; ++axis) {
-    row[pt_x + axis] = positions[pair.slave][axis];
-    row[proj_x + axis] = contact.has_foot ? pair.foot[axis] : 0.0;
+    row[pt_x + axis] = positions[contact.pair.slave][axis];
+    row[proj_x + axis] = contact.has_foot ? contact.pair.foot[axis] : 0.0;
   }
+}
+
+void write_state(const NodeContact& contact, Positions positions, double* row) {
+  row[cont] = status_of(contact, positions[contact.pair.slave]);
+  row[jeu] = contact.gap;
+  write_places(contact, positions, row);
   row[glix] = contact.slip[0];
   row[gliy] = contact.slip[1];
   row[gli] = contact.slip.norm();
@@ -80,11 +83,7 @@ void write_state(const NodeContact& contact, Positions positions, double* row) {
 void write_apart(const NodeContact& contact, Positions positions, Unpaired unpaired, double* row) {
   row[cont] = static_cast<double>(unpaired);
   row[jeu] = contact.gap;
-  if (!contact.has_foot) return;
-  for (int axis = 0; axis < 3; ++axis) {
-    row[pt_x + axis] = positions[contact.pair.slave][axis];
-    row[proj_x + axis] = contact.pair.foot[axis];
-  }
+  if (contact.has_foot) write_places(contact, positions, row);
 }
 
 /// To those of other zones at the node. Contact pulls at a node that it holds (MixedZone::bilateral): RN is a size.

@@ -67,7 +67,7 @@ void ElementBlock::add_initial_stress_forces(std::span<const double> stresses, F
 void ElementBlock::add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const {
   if (has_memory()) return;
   std::vector<long double> held(forces.size(), 0.0L);
-  add_internal_forces(Eigen::VectorXd::Zero(u.size()), state, held);
+  add_internal_forces(u, state, held);
   for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= held[i];
 }
 

@@ -56,8 +56,8 @@ class ElementBlock {
   virtual void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const {
     add_internal_forces(u, state, forces);
   }
-  /// The forces at u with which the elastic material would hold up the strains of the command variables; 0 of elements
-  /// with a memory that know none.
+  /// The forces at u = 0 with which the elastic material would hold up the strains of the command variables; 0 of
+  /// elements with a memory that know none.
   virtual void add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const;
   /// What stresses, laid out as in stresses(), add to the stiffness when the element turns, in small displacements
   /// (R7.05.01). Throws Error `unsupported` where the element knows none.

@@ -7,11 +7,11 @@
 #include <cstdlib>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <unordered_map>
 #include <vector>
 
 #include "solver/error.hpp"
+#include "solver/io/cells_by_type.hpp"
 #include "solver/io/gmsh_cells.hpp"
 #include "solver/io/text_scanner.hpp"
 #include "solver/mesh/flatness.hpp"
@@ -192,7 +192,8 @@ class GmshReader {
     for (std::size_t i = 0; i < type.order.size(); ++i) ordered[i] = nodes_[static_cast<std::size_t>(type.order[i])];
     const CellType kept = kept_type(type.type);
     ordered.resize(static_cast<std::size_t>(node_count(kept)));
-    cells_.push_back({type.number, kept, std::move(ordered), dimension(type.type), groups});
+    cells_.push_back({type.number, kept, std::move(ordered)});
+    groups_.push_back(groups);
   }
 
   void read_cells_1() {
@@ -250,13 +251,9 @@ class GmshReader {
 
   /// Cells stand type by type, in the order of Gmsh's numbers; groups list them as the file does.
   void add_cells() {
-    std::vector<std::size_t> order(cells_.size());
-    std::iota(order.begin(), order.end(), 0);
-    std::ranges::stable_sort(order, {}, [&](std::size_t cell) { return cells_[cell].number; });
-    std::vector<int> indices(cells_.size());
-    for (const std::size_t cell : order) indices[cell] = mesh_.add_cell(cells_[cell].type, cells_[cell].nodes);
+    const std::vector<int> indices = add_by_rank(cells_, mesh_);
     for (std::size_t cell = 0; cell < cells_.size(); ++cell) {
-      for (const int group : cells_[cell].groups) add_to_groups(indices[cell], cells_[cell].dimension, group);
+      for (const int group : groups_[cell]) add_to_groups(indices[cell], dimension(cells_[cell].type), group);
     }
   }
 
@@ -273,7 +270,7 @@ class GmshReader {
   /// Nodes that no cell has are none of the mesh: centres of circles, centres of QUAD9.
   void drop_unused_nodes() {
     std::vector<int> number(mesh_.nodes.size(), 0);
-    for (const Cell& cell : cells_) {
+    for (const ListedCell& cell : cells_) {
       for (const int node : cell.nodes) number[static_cast<std::size_t>(node)] = 1;
     }
     int count = 0;
@@ -283,7 +280,7 @@ class GmshReader {
       number[node] = count++;
     }
     mesh_.nodes.resize(static_cast<std::size_t>(count));
-    for (Cell& cell : cells_) {
+    for (ListedCell& cell : cells_) {
       for (int& node : cell.nodes) node = number[static_cast<std::size_t>(node)];
     }
   }
@@ -296,18 +293,11 @@ class GmshReader {
     settle_in_plane(mesh_);
   }
 
-  struct Cell {
-    int number;  ///< of its type, Gmsh's
-    CellType type;
-    std::vector<int> nodes;
-    int dimension;
-    std::vector<int> groups;
-  };
-
   TextScanner scan_;
   double version_ = 1.0;
   Mesh mesh_;
-  std::vector<Cell> cells_;  ///< as the file lists them
+  std::vector<ListedCell> cells_;         ///< ranked by Gmsh's numbers of types
+  std::vector<std::vector<int>> groups_;  ///< physical ones, of each cell
   std::unordered_map<int, int> node_index_;
   std::map<std::pair<int, int>, std::string> names_;               ///< by dimension and number
   std::map<std::pair<int, int>, std::vector<int>> entity_groups_;  ///< by dimension and number

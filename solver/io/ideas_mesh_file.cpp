@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <numeric>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "solver/error.hpp"
+#include "solver/io/cells_by_type.hpp"
 #include "solver/io/text_scanner.hpp"
 #include "solver/mesh/flatness.hpp"
 
@@ -191,7 +191,8 @@ class IdeasReader {
     }
     if (!cell_index_.emplace(label, static_cast<int>(cells_.size())).second)
       fail(fmt::format("element {} stands twice in the file", label));
-    cells_.emplace_back(kind->type, std::move(nodes));
+    const auto rank = std::ranges::find(type_order, kind->type) - type_order.begin();
+    cells_.push_back({static_cast<int>(rank), kind->type, std::move(nodes)});
   }
 
   void read_groups(std::size_t head_size, int stride) {
@@ -220,16 +221,9 @@ class IdeasReader {
   }
 
   void finish() {
-    std::vector<std::size_t> order(cells_.size());
-    std::iota(order.begin(), order.end(), 0);
-    const auto rank = [&](std::size_t cell) {
-      return std::ranges::find(type_order, cells_[cell].first) - type_order.begin();
-    };
-    std::ranges::stable_sort(order, {}, rank);
-    std::vector<int> number(cells_.size());
-    for (const std::size_t cell : order) number[cell] = mesh_.add_cell(cells_[cell].first, cells_[cell].second);
+    const std::vector<int> indices = add_by_rank(cells_, mesh_);
     for (auto& [name, members] : mesh_.cell_groups)
-      for (int& member : members) member = number[static_cast<std::size_t>(member)];
+      for (int& member : members) member = indices[static_cast<std::size_t>(member)];
     settle_in_plane(mesh_);
   }
 
@@ -296,7 +290,7 @@ class IdeasReader {
   int number_ = 0;
   bool ended_ = false;  ///< the data set, on the line read last
   Mesh mesh_;
-  std::vector<std::pair<CellType, std::vector<int>>> cells_;  ///< as the file lists them
+  std::vector<ListedCell> cells_;
   std::unordered_map<int, int> node_index_, cell_index_;
   std::unordered_set<std::string> in_groups_;
 };

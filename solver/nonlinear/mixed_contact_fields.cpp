@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "solver/contact/doubts.hpp"
 #include "solver/contact/patch_field.hpp"
 #include "solver/contact/patch_points.hpp"
 #include "solver/contact/watched_zones.hpp"
@@ -105,12 +106,12 @@ void add_idle_multipliers(const SolvedContact& contact, const std::function<doub
   }
 }
 
-/// Where the place that the point faces has gone since surfaces were paired.
-Vector3d place_on_facet(const Mesh& mesh, const ContactPoint& point, Positions positions) {
+/// Where the place on the master has gone since surfaces were paired.
+Vector3d place_on_facet(const Mesh& mesh, const ContactPair& pair, Positions positions) {
   Vector3d place = Vector3d::Zero();
-  const auto nodes = mesh.cell(point.facet >= 0 ? point.facet : point.beside);
+  const auto nodes = mesh.cell(pair.facet);
   for (std::size_t a = 0; a < nodes.size(); ++a)
-    place += point.master_shape[a] * positions[static_cast<std::size_t>(nodes[a])];
+    place += pair.weights[a] * positions[static_cast<std::size_t>(nodes[a])];
   return place;
 }
 
@@ -143,9 +144,11 @@ NodeContact node_contact(const SolvedContact& contact, Positions positions, std:
   node.pair = {.zone = point.zone,
                .slave = point.stands_for,
                .status = point.status,
-               .facet = point.facet,
+               .facet = point.facet >= 0 ? point.facet : point.beside,
+               .weights = point.master_shape,
                .normal = point.normal,
-               .foot = point.foot};
+               .foot = point.foot,
+               .thickness = point.thickness};
   if (condensed.first_row >= 0) {
     node.gap = contact.jumps[condensed.first_row];
     if (point.node >= 0) node.normal_force = contact.forces[condensed.first_row];
@@ -153,10 +156,9 @@ NodeContact node_contact(const SolvedContact& contact, Positions positions, std:
     node.sticking = node.closed && (is_sticking(contact, p, shares) || is_left_to_creep(contact, point));
   }
   const bool is_discrete = contact.definition.formulation == ContactFormulation::discrete;
-  node.has_foot = is_discrete ? node.closed : point.facet >= 0 || point.beside >= 0;
-  if (!is_discrete && node.has_foot) node.pair.foot = place_on_facet(contact.mesh, point, positions);
-  if (!is_discrete && point.beside >= 0 && point.node >= 0)
-    node.gap = point.normal.dot(positions[static_cast<std::size_t>(point.node)] - node.pair.foot) - point.thickness;
+  node.has_foot = is_discrete ? node.closed : node.pair.facet >= 0;
+  if (!is_discrete && node.has_foot) node.pair.foot = place_on_facet(contact.mesh, node.pair, positions);
+  if (!is_discrete && point.beside >= 0 && point.node >= 0) node.gap = gap_at(node.pair, contact.mesh, positions);
   if (point.node >= 0) node.shear_force = shear_force(contact, p);
   for (int c = 1; c < condensed.rows; ++c)
     node.slip[c - 1] = contact.is_closed(p) ? contact.jumps[condensed.first_row + c] : 0.0;
