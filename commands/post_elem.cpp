@@ -84,19 +84,22 @@ void list_energies(Table& table, const Call& call, interpreter::Diagnostics& dia
     const auto index = static_cast<std::size_t>(chosen - source.result.steps.data());
     const auto energies = std::get<solver::ElementField>(computation.compute(field, index));
     const bool is_elastic = std::string_view(keyword) == "ENER_ELAS";
+    const bool is_potential = std::string_view(keyword) == "ENER_POT";
     const double whole =
         reference_energy(call, keyword, energies, chosen->fields.contains(field), source.result.mesh());
     for (const Keywords& occurrence : call.factors(keyword)) {
       for (const Part& part : is_elastic ? parts_and_union(call, occurrence, source.result.mesh())
                                          : parts_of(call, occurrence, source.result.mesh())) {
         const double total = solver::sum_over_cells(energies, 0, std::span<const int>(part.cells));
-        Row row = {{"NUME_ORDRE", static_cast<std::int64_t>(chosen->order)}, {"INST", chosen->instant}};
+        Row row;
+        if (call.has("RESULTAT"))
+          row = {{"NUME_ORDRE", static_cast<std::int64_t>(chosen->order)}, {"INST", chosen->instant}};
         const Row place = place_columns(part);
         row.insert(row.end(), place.begin(), place.end());
         row.emplace_back("TOTALE", total);
         if (is_elastic)
           add_parts(row, energies, part.cells);
-        else
+        else if (is_potential)
           row.emplace_back("POUR_CENT", whole != 0.0 ? 100.0 * total / whole : 0.0);
         table.add_row(row);
       }
@@ -439,7 +442,7 @@ Product post_elem(const Call& call, Context& context) {
   warn_of_missing_instants("POST_ELEM", call, context.diagnostics);
   if (call.has("ENER_ELAS")) list_energies(table, call, context.diagnostics, "ENER_ELAS", "ENEL_ELEM");
   if (call.has("ENER_POT")) list_energies(table, call, context.diagnostics, "ENER_POT", "EPOT_ELEM");
-  if (call.has("ENER_TOTALE")) list_energies(table, call, context.diagnostics, "ENER_TOTALE", "ETOT_ELEM");
+  if (call.has("ENER_TOTALE")) list_energies(table, call, context.diagnostics, "ENER_TOTALE", "ENER_TOTALE");
   for (const char* keyword : {"INDIC_SEUIL", "INDIC_ENER"})
     if (call.has(keyword)) list_indicators(table, call, context.diagnostics, keyword);
   if (call.has("MASS_INER")) list_masses(table, call, context);

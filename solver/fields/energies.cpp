@@ -9,6 +9,7 @@
 #include "solver/elements/hourglass.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/tensor_reader.hpp"
+#include "solver/materials/behaviour/hardening_energy.hpp"
 #include "solver/mesh/place.hpp"
 #include "solver/model/stress_names.hpp"
 
@@ -225,6 +226,30 @@ ElementField total_energy_density(const ElementField& stresses, const ElementFie
     change.tail<3>() *= 2;
     return mean.dot(change) + (previous ? previous->at(cell, point, 0) : 0.0);
   });
+}
+
+ElementField hardening_energy_density(const FieldInput& input, const ElementField& variables,
+                                      const BehaviourOfCells& behaviours) {
+  const int p = variables.component("V1");
+  ContinuumPoints points(input.model);
+  ElementField energies{"ENER_R", Support::gauss_point, {"TOTALE"}, {0}, {}};
+  for (int cell = 0; cell < input.model.mesh->cell_count(); ++cell) {
+    const CellBehaviour& behaviour = behaviours[static_cast<std::size_t>(cell)];
+    const bool hardens =
+        points.covers(cell) && is_isotropic(behaviour.relation) && behaviour.kinematics == Kinematics::small;
+    const int count = hardens ? variables.points(cell) : 0;
+    energies.starts.push_back(energies.starts.back() + count);
+    if (count == 0) continue;
+    const Material& material = *input.materials.by_cell[static_cast<std::size_t>(cell)];
+    const auto& elasticity = std::get<IsotropicElasticity>(*material.elasticity);
+    for (int g = 0; g < count; ++g) {
+      const ContinuumSample& sample = points.samples(cell)[static_cast<std::size_t>(g)];
+      const MaterialPoint at = points.material_point(cell, input.state, sample, points.locate(cell, sample).at, g);
+      energies.values.push_back(hardening_energy(
+          plastic_point(elasticity, material.plasticity, behaviour.relation, at).curve, variables.at(cell, g, p)));
+    }
+  }
+  return energies;
 }
 
 ElementField integrate_cells(const Model& model, const ElementField& field) {

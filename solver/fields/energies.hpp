@@ -7,6 +7,7 @@
 
 #include "solver/fields/continuum_points.hpp"
 #include "solver/fields/field.hpp"
+#include "solver/model/behaviour.hpp"
 
 namespace comma::solver {
 
@@ -22,6 +23,11 @@ ElementField strain_energy_density(const FieldInput& input, const ElementField& 
 ElementField total_energy_density(const ElementField& stresses, const ElementField& strains,
                                   const ElementField* stresses_before, const ElementField* strains_before,
                                   const ElementField* previous);
+
+/// The energy that flow with isotropic hardening has taken up per volume, the integral of R to V1 of `variables`
+/// (VARI_ELGA), at the points of cells with such a law in small strains (TOTALE); no points elsewhere.
+ElementField hardening_energy_density(const FieldInput& input, const ElementField& variables,
+                                      const BehaviourOfCells& behaviours);
 
 /// Adds to ENEL_ELGA of elastic hexahedra with one point (3D_SI) that of the stress that varies over them, FSTAB1 ..
 /// FSTAB72 of `stresses`, as a mean over the volume of the point.

@@ -179,6 +179,22 @@ Field FieldComputation::total_energy_of_cells(std::size_t step) {
   return bars.empty() ? energies : side_by_side(energies, work_of_bars(bars, step));
 }
 
+// Where hardening is isotropic what is stored and what flow has taken up follow from the state; of all else the work
+// adds up from step to step (ENER_TOTALE, U4.81.22).
+Field FieldComputation::energy_of_state(std::size_t step) {
+  Field energies = whole_field("ETOT_ELEM", step);
+  if (!some_flow()) return energies;
+  const Field flow = hardening_energy_density(input(), whole_field("VARI_ELGA", step), *problem_.behaviours);
+  std::vector<int> cells;
+  for (int cell = 0; cell < problem_.model->mesh->cell_count(); ++cell)
+    if (std::get<ElementField>(flow).points(cell) > 0) cells.push_back(cell);
+  Field densities = on_cells(whole_field("ENEL_ELGA", step), cells);
+  put_piece(densities, {&flow, {}, {}, 1.0, true});
+  const Field of_state = integrate_cells(*problem_.model, std::get<ElementField>(densities));
+  put_piece(energies, {&of_state, {}, {}, 1.0, false});
+  return energies;
+}
+
 void FieldComputation::require_elastic_work(const std::vector<int>& others, std::size_t step) {
   const Mesh& mesh = *problem_.model->mesh;
   require_no_initial_stresses("the total energy", step);

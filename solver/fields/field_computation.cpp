@@ -113,6 +113,7 @@ const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputati
       {"EPOT_ELEM", &F::potential_energy_of_cells},
       {"ETOT_ELGA", &F::total_energy},
       {"ETOT_ELEM", &F::total_energy_of_cells},
+      {"ENER_TOTALE", &F::energy_of_state},
       {"VARI_ELGA", &F::internal_variables},
       {"DERA_ELGA", &F::unloading},
       {"INDIC_SEUIL_ELGA", &F::yield_of_loading},

@@ -127,6 +127,7 @@ class FieldComputation {
   void know_earlier(const std::string& name, std::size_t step);
   Field total_energy(std::size_t step);
   Field total_energy_of_cells(std::size_t step);
+  Field energy_of_state(std::size_t step);
   void require_elastic_work(const std::vector<int>& others, std::size_t step);
   ElementField work_of_bars(const std::vector<int>& bars, std::size_t step);
   Field internal_variables(std::size_t step);

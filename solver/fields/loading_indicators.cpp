@@ -70,28 +70,17 @@ YieldPlaces yield_places(Relation relation) {
   }
 }
 
-bool is_isotropic(Relation relation) {
-  switch (relation) {
-    case Relation::elastic:
-    case Relation::isotropic_linear:
-    case Relation::isotropic_traction:
-    case Relation::isotropic_power:
-    case Relation::isotropic_nonlinear:
-      return true;
-    default:
-      return false;
-  }
-}
+bool has_indicators(Relation relation) { return relation == Relation::elastic || is_isotropic(relation); }
 
 CellBehaviour behaviour_of(const FieldInput& input, const PlasticFields& fields, int cell) {
   CellBehaviour behaviour;
   if (fields.behaviours != nullptr && !fields.behaviours->empty())
     behaviour = (*fields.behaviours)[static_cast<std::size_t>(cell)];
-  if (is_isotropic(behaviour.relation) && behaviour.kinematics == Kinematics::small) return behaviour;
+  if (has_indicators(behaviour.relation) && behaviour.kinematics == Kinematics::small) return behaviour;
   throw Error(
       "unsupported",
       fmt::format("indicators of the loading are asked for on cell {}, whose {}", input.model.mesh->cell_name(cell),
-                  is_isotropic(behaviour.relation) ? "strains are large" : "hardening is not isotropic"),
+                  has_indicators(behaviour.relation) ? "strains are large" : "hardening is not isotropic"),
       "they are known for isotropic von Mises plasticity in small strains; name the cells that have it");
 }
 

@@ -49,6 +49,12 @@ constexpr bool is_reversible(Relation relation) {
          relation == Relation::reversible_power;
 }
 
+/// Von Mises' plasticity whose yield surface grows and does not move.
+constexpr bool is_isotropic(Relation relation) {
+  return relation == Relation::isotropic_linear || relation == Relation::isotropic_traction ||
+         relation == Relation::isotropic_power || relation == Relation::isotropic_nonlinear;
+}
+
 /// Whether stresses depend on more than the displacements of the moment.
 constexpr bool has_memory(const CellBehaviour& behaviour) {
   return behaviour.relation != Relation::elastic ||
