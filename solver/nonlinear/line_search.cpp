@@ -22,6 +22,31 @@ std::optional<double> secant(const LineTrial& a, const LineTrial& b) {
   return b.rho - b.work * (b.rho - a.rho) / (b.work - a.work);
 }
 
+/// The trials so far, and what they say of the next.
+class LineTrials {
+ public:
+  LineTrials(const LineSearch& options, double start) : options_(options), last_{0.0, start}, start_(start) {}
+
+  std::optional<double> after(const LineTrial& trial) {
+    const std::optional<double> next = secant(last_, trial);
+    last_ = trial;
+    if (!options_.bracketed) return next;
+    if (trial.work * start_ <= 0.0) {
+      far_ = trial.rho;
+    } else {
+      near_ = trial.rho;
+      if (std::isinf(far_)) return 3.0 * trial.rho;
+    }
+    return std::clamp(next.value_or(0.0), 0.5 * (near_ + far_), far_);
+  }
+
+ private:
+  const LineSearch& options_;
+  LineTrial last_;
+  double start_;
+  double near_ = 0.0, far_ = std::numeric_limits<double>::infinity();  ///< between which the work changes sign
+};
+
 double admissible(const LineSearch& options, double rho) {
   rho = std::clamp(rho, options.smallest, options.largest);
   return std::abs(rho) < options.excluded ? options.excluded : rho;
@@ -30,7 +55,7 @@ double admissible(const LineSearch& options, double rho) {
 }  // namespace
 
 double search_line(const LineSearch& options, double start, const std::function<double(double)>& work) {
-  LineTrial before{0.0, start};
+  LineTrials trials(options, start);
   LineTrial best{1.0, std::numeric_limits<double>::infinity()};
   std::optional<Error> failure;
   double rho = 1.0;
@@ -40,11 +65,10 @@ double search_line(const LineSearch& options, double start, const std::function<
       failure.reset();
       if (std::abs(trial.work) < std::abs(best.work)) best = trial;
       if (std::abs(trial.work) <= options.tolerance * std::abs(start)) return trial.rho;
-      const std::optional<double> next = secant(before, trial);
-      // Between a change of sign the end on the far side stays.
-      if (!options.bracketed || trial.work * before.work > 0.0) before = trial;
+      const std::optional<double> next = trials.after(trial);
       if (!next) break;
       rho = admissible(options, *next);
+      if (rho == trial.rho) break;  // at a bound
     } catch (const Error& error) {
       if (error.code() != "integration-failure") throw;
       failure = error;

@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <vector>
 
 #include "scene.hpp"
 #include "solver/error.hpp"
@@ -38,6 +39,32 @@ TEST_CASE("the line search keeps to its bounds and comes back from where the law
   CHECK(rho == exactly(0.5));
   CHECK_THROWS_WITH(search_line(options, 1.0, [](double) -> double { throw Error("integration-failure", "nowhere"); }),
                     "nowhere");
+}
+
+TEST_CASE("MIXTE goes three times as far until work changes sign, and then back, no nearer than halfway") {
+  LineSearch options{.bracketed = true, .tolerance = 1e-6, .max_iterations = 5, .largest = 100.0};
+  std::vector<double> trials;
+  search_line(options, 1.0, [&](double rho) {
+    trials.push_back(rho);
+    return 1.0 - 0.1 * rho;
+  });
+  CHECK(trials == std::vector<double>{1.0, 3.0, 9.0, 27.0, 18.0, 13.5});
+  trials.clear();
+  options.max_iterations = 3;
+  search_line(options, 0.88, [&](double rho) {
+    trials.push_back(rho);
+    return 1.0 / (1.0 + rho) - 0.12;
+  });
+  REQUIRE(trials.size() == 4);
+  CHECK(trials[2] == 9.0);
+  CHECK(trials[3] == exactly(3.0 + 6.0 * 0.13 / 0.15));  // the secant
+  trials.clear();
+  options.largest = 2.0;
+  search_line(options, 1.0, [&](double rho) {
+    trials.push_back(rho);
+    return 1.0 - 0.1 * rho;
+  });
+  CHECK(trials == std::vector<double>{1.0, 2.0});
 }
 
 TEST_CASE(
