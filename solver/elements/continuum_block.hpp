@@ -349,13 +349,47 @@ class ContinuumBlock : public ElementBlock {
 
   /// B^T stress, a node a row.
   static void add_forces(const Strain& stress, const Sample& sample, const Point& point, Coordinates& force) {
+    force.noalias() += point.gradients * tensor_in_space(stress);
+    if constexpr (Axisymmetric) force.col(0) += sample.values * (stress(2) / point.radius);
+  }
+
+  /// What the law adds to the tangent by the strain rows of the nodes (lower triangle).
+  static void add_material(const Law& law, double weight, const std::array<StrainRow, Nodes>& rows, Stiffness& k) {
+    for (int b = 0; b < Nodes; ++b) {
+      const StrainRow image = weight * (law * rows[b]);
+      for (int a = b; a < Nodes; ++a)
+        k.template block<Dim, Dim>(a * Dim, b * Dim).noalias() += rows[a].transpose() * image;
+    }
+  }
+
+  /// What the stress adds to the tangent in large strains when the strain's own variation turns (lower triangle), but
+  /// for the hoops round an axis.
+  static void add_geometric(const Point& point, const Strain& stress, Stiffness& k) {
+    const Eigen::Matrix<double, Dim, Dim> pulling = point.weight * tensor_in_space(stress);
+    for (int b = 0; b < Nodes; ++b) {
+      const Eigen::Matrix<double, Dim, 1> pull = pulling * point.gradients.row(b).transpose();
+      for (int a = b; a < Nodes; ++a)
+        k.template block<Dim, Dim>(a * Dim, b * Dim).diagonal().array() += point.gradients.row(a).dot(pull);
+    }
+  }
+
+  /// That of the hoops, which Code_Aster 17.3 leaves out with GREEN_LAGRANGE and GDEF_LOG of displacements alone: with
+  /// the same tangent iterations that a loose criterion ends end where they do there.
+  static void add_hoops(const Sample& sample, const Point& point, const Strain& stress, Stiffness& k) {
+    if constexpr (!Axisymmetric) return;
+    const double pulling = point.weight * stress(2) / (point.radius * point.radius);
+    for (int b = 0; b < Nodes; ++b)
+      for (int a = b; a < Nodes; ++a) k(a * Dim, b * Dim) += pulling * sample.values(a) * sample.values(b);
+  }
+
+  /// The stresses along the directions of the displacements.
+  static Eigen::Matrix<double, Dim, Dim> tensor_in_space(const Strain& stress) {
     Eigen::Matrix<double, Dim, Dim> tensor;
     if constexpr (Dim == 3)
       tensor << stress(0), stress(3), stress(4), stress(3), stress(1), stress(5), stress(4), stress(5), stress(2);
     else
       tensor << stress(0), stress(3), stress(3), stress(1);
-    force.noalias() += point.gradients * tensor;
-    if constexpr (Axisymmetric) force.col(0) += sample.values * (stress(2) / point.radius);
+    return tensor;
   }
 
   /// Direction by direction, over all nodes at once.

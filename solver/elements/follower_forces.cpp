@@ -138,7 +138,7 @@ Eigen::SparseMatrix<double> FollowerForces::tangent(const Eigen::VectorXd& u) co
           -acting.pressure * normal_change(now, sample, column) - sample.values[column] * normal * gradient.transpose();
       if (acting.shear != 0.0) change += acting.shear * sample.derivatives(column, 0) * Matrix3d::Identity();
       change *= radius;
-      if (axisymmetric) change.col(0) += sample.values[column] * acting.force;
+      if (axisymmetric) change.row(0) += sample.values[column] * acting.force.transpose();
       for (std::size_t a = 0; a < nodes.size(); ++a) {
         const double weight = sample.weight * sample.values[static_cast<Eigen::Index>(a)];
         for (int i = 0; i < 3; ++i) {

@@ -28,8 +28,9 @@ class FollowerForces {
 
   /// Forces (one a degree of freedom) at the displacements u.
   Eigen::VectorXd at(const Eigen::VectorXd& u) const;
-  /// Their derivatives by u (n x n), which are not symmetric. The change of a pressure with the deformed place is a
-  /// difference quotient.
+  /// Their derivatives by u (n x n), which are not symmetric; round an axis what the change of the radius adds is
+  /// transposed, as in Code_Aster 17.3: iterations that a loose criterion ends end where they do there. The change of a
+  /// pressure with the deformed place is a difference quotient.
   Eigen::SparseMatrix<double> tangent(const Eigen::VectorXd& u) const;
 
  private:

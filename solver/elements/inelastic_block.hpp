@@ -355,36 +355,13 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       const PointResponse response = respond(element, g, x, gradient, state, how);
       const typename Base::Law law = response.tangent.template topLeftCorner<strains, strains>();
       for (int a = 0; a < Nodes; ++a) rows[a] = row(gradient, g, point, a);
-      add_material(law, point.weight, rows, k);
-      if (law_.is_large()) add_geometric(g, point, response.stress, k);
+      Base::add_material(law, point.weight, rows, k);
+      const typename Base::Strain stress = response.stress.template head<strains>();
+      if (law_.has_geometric_part()) Base::add_geometric(point, stress, k);
+      if (law_.has_hoop_part()) Base::add_hoops(this->samples_[g], point, stress, k);
     }
     k.template triangularView<Eigen::StrictlyUpper>() = k.transpose();
     make_translation_exact<Nodes, Dim>(k, Base::invariant_directions());
-  }
-
-  /// What the law's tangent adds by the strain rows of the nodes (lower triangle).
-  static void add_material(const typename Base::Law& law, double weight, const std::array<StrainRow, Nodes>& rows,
-                           Stiffness& k) {
-    for (int b = 0; b < Nodes; ++b) {
-      const StrainRow image = weight * (law * rows[b]);
-      for (int a = b; a < Nodes; ++a)
-        k.template block<Dim, Dim>(a * Dim, b * Dim).noalias() += rows[a].transpose() * image;
-    }
-  }
-
-  /// What the stress adds when the strain's own variation turns (lower triangle).
-  void add_geometric(int g, const Point& point, const Vector6d& second, Stiffness& k) const {
-    const Eigen::Matrix<double, Dim, Dim> stress = tensor_of_stress(second).template topLeftCorner<Dim, Dim>();
-    for (int b = 0; b < Nodes; ++b) {
-      const Eigen::Matrix<double, Dim, 1> pull = point.weight * (stress * point.gradients.row(b).transpose());
-      for (int a = b; a < Nodes; ++a) {
-        auto block = k.template block<Dim, Dim>(a * Dim, b * Dim);
-        block.diagonal().array() += point.gradients.row(a).dot(pull);
-        if constexpr (Axisymmetric)
-          block(0, 0) += point.weight * second[2] * this->samples_[g].values(a) * this->samples_[g].values(b) /
-                         (point.radius * point.radius);
-      }
-    }
   }
 
   PointLaw law_;

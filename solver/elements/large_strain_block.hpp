@@ -148,21 +148,9 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     std::array<StrainRow, Nodes> rows;
     for (int g = 0; g < this->point_count(); ++g) {
       const Deformed at(*this, element, g, x, u, state);
-      const double weight = at.point.weight;
-      const Eigen::Matrix<double, Dim, Dim> stress = tensor(at.stress).template topLeftCorner<Dim, Dim>();
       for (int a = 0; a < Nodes; ++a) rows[a] = at.row(a);
-      for (int b = 0; b < Nodes; ++b) {
-        const StrainRow image = weight * (*at.behaviour.law * rows[b]);
-        const Eigen::Matrix<double, Dim, 1> pull = weight * (stress * at.point.gradients.row(b).transpose());
-        for (int a = b; a < Nodes; ++a) {
-          auto block = k.template block<Dim, Dim>(a * Dim, b * Dim);
-          block.noalias() += rows[a].transpose() * image;
-          block.diagonal().array() += at.point.gradients.row(a).dot(pull);
-          if constexpr (Axisymmetric)
-            block(0, 0) +=
-                weight * at.stress(2) * at.sample.values(a) * at.sample.values(b) / (at.point.radius * at.point.radius);
-        }
-      }
+      Base::add_material(*at.behaviour.law, at.point.weight, rows, k);
+      Base::add_geometric(at.point, at.stress, k);
     }
     k.template triangularView<Eigen::StrictlyUpper>() = k.transpose();
     make_translation_exact<Nodes, Dim>(k, Base::invariant_directions());

@@ -390,7 +390,11 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
     for (int a = 0; a < Nodes; ++a) rows[a] = this->row(gradient, g, point, a);
     this->add_material(response.tangent.template topLeftCorner<strains, strains>(), point.weight, rows,
                        tangent.displacements);
-    if (is_large()) this->add_geometric(g, point, response.stress, tangent.displacements);
+    if (this->law_.has_geometric_part()) {
+      const typename Base::Strain stress = response.stress.template head<strains>();
+      this->add_geometric(point, stress, tangent.displacements);
+      this->add_hoops(this->samples_[g], point, stress, tangent.displacements);
+    }
     const std::array<int, 2> of_law = {pressure_row, swelling_row};
     for (int i = 0; i < unknowns_.fields(); ++i) {
       const Strain pull = point.weight * response.tangent.col(of_law[i]).template head<strains>();

@@ -53,6 +53,11 @@ class PointLaw {
 
   /// Large strains have their forces on the deformed, small ones on the initial geometry.
   bool is_large() const { return behaviour_.kinematics != Kinematics::small; }
+  /// Whether the tangent of displacements has what the stress adds when the strain's variation turns, and what that of
+  /// hoops round an axis adds. Code_Aster 17.3 leaves out both with PETIT_REAC, the second but with SIMO_MIEHE: with
+  /// the same tangents, iterations that a loose criterion ends end where they do there.
+  bool has_geometric_part() const { return is_large() && behaviour_.kinematics != Kinematics::updated; }
+  bool has_hoop_part() const { return behaviour_.kinematics == Kinematics::multiplicative; }
   /// Whether the tangent never changes.
   bool is_linear() const { return !is_large() && behaviour_.relation == Relation::elastic; }
   Relation relation() const { return behaviour_.relation; }
