@@ -335,7 +335,7 @@ std::string_view full_family(CellType type) {
   return {};
 }
 
-/// As Code_Aster's cases have it (docs/conformance.md).
+/// As Code_Aster's cases have it (docs/conformance/incompressible.md).
 std::string_view mixed_family(CellType type, Formulation formulation) {
   if (type == CellType::hexa20) return "FPG8";
   if (type == CellType::tetra10) return "FPG4";

@@ -120,9 +120,9 @@ Eigen::Vector3d first_edge(const Mesh& mesh, int face) {
 }
 
 /// Both principal directions of a plane tensor [a, b; b, c], of the smaller value first. A direction has no sign of its
-/// own; these are those that Code_Aster's figures have (docs/conformance.md): the second one is (b, value - a), as the
-/// first of the equations (a - value) v1 + b v2 = 0 has it; the first one leans towards the first axis, or away from
-/// the second where that is nearer.
+/// own; these are those that Code_Aster's figures have (docs/conformance/fields.md): the second one is (b, value - a),
+/// as the first of the equations (a - value) v1 + b v2 = 0 has it; the first one leans towards the first axis, or away
+/// from the second where that is nearer.
 std::array<Eigen::Vector2d, 2> principal_directions(double a, double b, double c) {
   const double half = 0.5 * (a - c);
   const double root = std::hypot(half, b);

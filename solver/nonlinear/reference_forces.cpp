@@ -80,8 +80,8 @@ class Summation {
   }
 
   /// Code_Aster takes the mean over the components of the stress, SIP among them, where other elements take it over
-  /// their points (docs/conformance.md). The balance of the pressure is one of strains, that of
-  /// the swelling one of stresses: integrals of both times the shape functions of the corners.
+  /// their points (docs/conformance/convergence.md). The balance of the pressure is one of strains, that of the
+  /// swelling one of stresses: integrals of both times the shape functions of the corners.
   void add_mixed(int cell, const VectorXd& forces) {
     const double components = continuum_dimension(model_.formulations[static_cast<std::size_t>(cell)]) == 3 ? 7.0 : 5.0;
     for (Eigen::Index i = 0; i < forces.size(); ++i)

@@ -51,11 +51,12 @@ def measured_quantities(runs: list[ContactRun]) -> list[str]:
 def _head(seconds: float, quick: bool) -> str:
     return (
         f"# Contact: error against time, by formulation\n\nWritten by `./comma bench contact{' --quick' if quick else ''}` ({seconds:.0f} s, "
-        f"{machine()}). Every run is a whole process with RESI_GLOB_RELA 1e-10; its time leaves out the commands that measure the error. "
-        "Errors are relative to the closed solution; *exact* is less than 1e-9. Each cell gives the error on the finest mesh and, in brackets, "
-        "the order over the four meshes. *Within*: unknowns and time of the coarsest mesh from which on the pressure (of the sliding block, the "
-        "resultant) has no larger error. Discrete formulations and LIAISON_UNIL are named by ALGO_CONT, CONTINUE by INTEGRATION and ORDRE_INT. "
-        "testcases/bench/README.md says what the scenes are and how pressure, resultant and penetration are measured.\n\n"
+        f"{machine()}). Every run is a whole process with RESI_GLOB_RELA 1e-10; its time leaves out the commands that measure the error.\n\n"
+        "- **Errors** are relative to the closed solution; *exact* is less than 1e-9. Each cell gives the error on the finest mesh and, in brackets, "
+        "the order over the four meshes.\n"
+        "- **Within**: unknowns and time of the coarsest mesh from which on the pressure (of the sliding block, the resultant) has no larger error.\n"
+        "- **Names**: discrete formulations and LIAISON_UNIL are named by ALGO_CONT, CONTINUE by INTEGRATION and ORDRE_INT.\n\n"
+        "[The page on the benches](../testcases/bench/README.md) says what the scenes are and how pressure, resultant and penetration are measured.\n\n"
     )
 
 

@@ -184,11 +184,14 @@ RULE = "|---|---|---|---|---|---|---|---|---|---|---|---|"
 def _peer_page(results: list[TimedRuns]) -> str:
     text = (
         "# Contact: scenes that another program was timed on\n\nWritten by `./comma bench peer`. A block of HEXA8 whose top corner is pushed down on a support "
-        "that cannot pull (441 conditions), and a block on a wider one whose mesh does not match (testcases/bench/README.md), 10 steps, "
-        f"RESI_GLOB_RELA 1e-10; medians of {len(results[0].runs)} whole processes, {machine()}. *Difference*: of the force through the contact, from the "
-        "first formulation's; discrete formulations face the geometry with which each step begins, the mixed one that of the mesh (REAC_GEOM='SANS'), 2e-4 apart here. *Peer*: what Code_Aster 17.3 was measured to take on scenes of these kinds with one thread on a machine like this one, and how many "
-        "times comma's processor time that is, which counts all threads and suffers less from other work on the machine than elapsed time. "
-        f"The other program's scenes are not these very ones. {SHARED}\n\n"
+        "that cannot pull (441 conditions), and a block on a wider one whose mesh does not match ([the page on the benches](../testcases/bench/README.md)). "
+        f"10 steps, RESI_GLOB_RELA 1e-10; medians of {len(results[0].runs)} whole processes, {machine()}.\n\n"
+        "- **Difference**: of the force through the contact, from the first formulation's. Discrete formulations face the geometry with which each step begins, "
+        "the mixed one that of the mesh (REAC_GEOM='SANS'), 2e-4 apart here.\n"
+        "- **Peer**: what Code_Aster 17.3 was measured to take on scenes of these kinds with one thread on a machine like this one. "
+        "Its scenes are not these very ones.\n"
+        "- **Ratio**: how many times comma's processor time that is, which counts all threads and suffers less from other work on the machine than elapsed time.\n"
+        f"- {SHARED}\n\n"
     )
     text += COLUMNS + " peer (s) | ratio |\n" + RULE + "---|---|\n"
     for timed in results:

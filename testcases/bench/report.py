@@ -41,10 +41,11 @@ def _head(seconds: float, quick: bool) -> str:
     mode = "quick mode, " if quick else ""
     return (
         f"# Error against time and memory\n\nWritten by `./comma bench{' --quick' if quick else ''}` ({mode}{seconds:.0f} s, "
-        f"{machine()}). Every run is a whole process; its time leaves out the commands that measure the error. Errors are "
-        "relative; that in the energy norm is the root of the relative error of the energy. An order is the slope over "
-        "the three finest meshes, that of theory in brackets; **bold**: more than 1/4 under it. Times are those of a machine that other "
-        "work may have shared. testcases/bench/README.md says what the scenes are and what the figures show.\n"
+        f"{machine()}). Every run is a whole process; its time leaves out the commands that measure the error.\n\n"
+        "- **Errors** are relative; that in the energy norm is the root of the relative error of the energy.\n"
+        "- **An order** is the slope over the three finest meshes, that of theory in brackets; in bold where it is more than 1/4 under it.\n"
+        "- **Times** are those of a machine that other work may have shared.\n\n"
+        "[The page on the benches](../testcases/bench/README.md) says what the scenes are and what the figures show.\n"
     )
 
 

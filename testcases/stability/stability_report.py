@@ -47,10 +47,15 @@ def shown(value: object) -> str:
 
 def _head(results: Results, seconds: float) -> str:
     text = (
-        f"# Where contact stops working\n\nWritten by `./comma bench stability` ({seconds:.0f} s, {machine()}). One parameter of a scene goes to an extreme, by "
-        "each formulation. A cell is *right* when the answer is within the tolerance that testcases/stability/README.md gives for its map, or when what has "
-        "no solution is refused as contradictory; *told* when it is not, and comma gives an alarm about this very thing; *no convergence*; *refused*, with an "
-        "error about something else; else *wrong*. Numbers are iterations, Newton's and those on the contact rows.\n\n"
+        f"# Where contact stops working\n\nWritten by `./comma bench stability` ({seconds:.0f} s, {machine()}). "
+        "One parameter of a scene goes to an extreme, by each formulation. Numbers are iterations, Newton's and those on the contact rows. "
+        "A cell is\n\n"
+        "- *right* when the answer is within the tolerance that [the page on the maps](../testcases/stability/README.md) "
+        "gives, or when what has no solution is refused as contradictory;\n"
+        "- *told* when it is not, and comma gives an alarm about this very thing;\n"
+        "- *no convergence*;\n"
+        "- *refused*, with an error about something else;\n"
+        "- else *wrong*.\n\n"
         "| map | " + " | ".join(OUTCOMES) + " |\n|---|" + "---|" * len(OUTCOMES) + "\n"
     )
     whole: Counter[str] = Counter()
