@@ -64,6 +64,7 @@ NewtonSolver::NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler
 void NewtonSolver::start_step(double duration) {
   policy_ = options_.tangent;
   most_iterations_ = options_.max_iterations;
+  duration_ = duration;
   is_short_ = duration < policy_.elastic_below;
   if (!is_short_) return;
   policy_.correction = TangentKind::elastic;
@@ -185,6 +186,7 @@ void NewtonSolver::take_conditions(double time, const ConditionSet& conditions, 
   // Of linear bodies the solution does not depend on where it is sought from, and with an exact compliance nor does the
   // work.
   const bool expects = tangent_.is_constant() && !schur_->is_exact();
+  course_.begin(time - duration_, state.multipliers);
   const Eigen::VectorXd multipliers = expects ? course_.expected(time, state.multipliers) : state.multipliers;
   row_multipliers_.resize(static_cast<Eigen::Index>(reduced_.origin.size()));
   active_.clear();
@@ -292,7 +294,7 @@ NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& stat
   if (!by_compliance())
     settle_conditions(state);
   else
-    settle_in_rounds(*schur_, [&] { return settle_conditions(state); });
+    settle_in_rounds(*schur_, tangent_.negligible_rest(), [&] { return settle_conditions(state); });
   Correction correction;
   correction.changes = count_changes(before, active_);
   state.multipliers.setZero();

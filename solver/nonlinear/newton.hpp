@@ -178,7 +178,8 @@ class NewtonSolver {
   Eigen::VectorXd reactions_;  ///< of the linear solves, at the unknowns that conditions hold; zero elsewhere
   int steps_ = 0;              ///< accepted so far
   TangentKind prediction_;
-  TangentPolicy policy_;   ///< of this step
+  TangentPolicy policy_;  ///< of this step
+  double duration_ = 0.0;
   bool is_short_ = false;  ///< this step takes the elastic stiffness because of its length
   int most_iterations_;    ///< of this step
   ResidualWatch watch_;

@@ -15,7 +15,7 @@
 #include "solver/linear/unsymmetric_solver.hpp"
 #include "solver/nonlinear/known_solutions.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
-#include "solver/unilateral/schur_complement.hpp"
+#include "solver/unilateral/rounds.hpp"
 
 namespace comma::solver {
 
@@ -104,6 +104,10 @@ class TangentSystem {
 
   /// Whether the last factor has nearly all digits, so that a solution needs no correction around it.
   bool loses_few_digits() const { return lost_digits_ <= LinearSolver::few_digits; }
+  /// What rounds of corrections of contact forces may leave, as a share of the largest (settle_in_rounds).
+  double negligible_rest() const {
+    return loses_few_digits() ? negligible_rest_of_stiff_bodies : solver::negligible_rest;
+  }
 
   /// Whether the last factorised tangent of one kind of unknowns has a negative eigenvalue: compliances may be negative
   /// then.
