@@ -82,7 +82,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
   for (int iteration = 1; iteration <= most; ++iteration) {
     if (iteration > 1 && is_tangent_due(policy_, tangent_, iteration, steps_) &&
         tangent_.refresh(state.u, kind_of(iteration)))
-      forget_compliance();
+      forget_stiffness();
     ++counters_.newton_iterations;
     const Eigen::VectorXd before = state.reduced, where = state.u, balance = balance_;
     Correction correction = correct(state, offset);
@@ -151,18 +151,23 @@ void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd&
   const Eigen::VectorXd moved = elimination_.transformation() * state.reduced + offset;
   const Eigen::VectorXd imposed = moved - state.u;
   const bool is_linear = tangent_.is_constant();
+  const Eigen::VectorXd before = state.u;
   if (is_linear) state.u = moved;
   variable_forces_ = assembler_.variable_forces();
   weights_.take(assembler_, elimination_);
   const bool is_other =
       is_short_ && tangent_.kind() != policy_.correction;  // one that is not due goes on from a step of normal length
   if ((is_other || is_tangent_due(policy_, tangent_, 1, steps_)) && tangent_.refresh(state.u, kind_of(1)))
-    forget_compliance();
-  measure(loads_at(state.u, external), assembler_.starting_forces(state.u));
+    forget_stiffness();
+  const auto forces_at = [&](const Eigen::VectorXd& u) { return assembler_.starting_forces(u); };
+  const bool may_be_known = is_linear && variable_forces_.size() == 0;
+  measure(loads_at(state.u, external),
+          may_be_known ? known_forces_.after_move(before, moved, forces_at) : forces_at(state.u));
   if (!is_linear && !imposed.isZero(0.0)) residual_ -= tangent_.reduced_forces(state.u, imposed, kind_of(1));
 }
 
-void NewtonSolver::forget_compliance() {
+void NewtonSolver::forget_stiffness() {
+  known_forces_ = {};
   if (schur_) schur_->forget();
   if (mixed_) mixed_->forget();
 }
@@ -200,27 +205,6 @@ void NewtonSolver::take_conditions(double time, const ConditionSet& conditions, 
 TangentKind NewtonSolver::kind_of(int iteration) const {
   if (iteration > 1 || is_short_) return policy_.correction;
   return at_start(prediction_);
-}
-
-/// With those that follow.
-Eigen::VectorXd NewtonSolver::loads_at(const Eigen::VectorXd& u, const Eigen::VectorXd& external) const {
-  return followers_ ? Eigen::VectorXd(external + followers_->at(u)) : external;
-}
-
-void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& external) {
-  measure(loads_at(state.u, external), assembler_.internal_forces(state.u));
-}
-
-/// Residual of the reduced unknowns and the size of the loads, reactions, contact forces and those of command variables
-/// included.
-void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal) {
-  balance_ = loads - internal;
-  residual_ = elimination_.transformation().transpose() * balance_;
-  if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
-  if (mixed_) residual_ += mixed_->forces();
-  load_ = knows_reactions() && reactions_.size() ? load_with_reactions(loads, internal)
-                                                 : weights_.load_size(loads, internal, variable_forces_);
-  applied_ = largest_component(loads);
 }
 
 NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::VectorXd& offset) {
