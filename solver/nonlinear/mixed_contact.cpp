@@ -346,7 +346,7 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   const double most = largest_component(change);
   if (most > 0.0) {
     Eigen::MatrixXd push = schur_->rows().transpose() * change;
-    tangent_.solve_once(push);
+    tangent_.solve_correction(push, u);
     corrected += push;
   }
   forces = solution.forces;

@@ -211,7 +211,7 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
   const Eigen::VectorXd before = state.reduced;
   Eigen::MatrixXd step = residual_;
   if (mixed_) step -= mixed_->forces_left_out();
-  if (step.size()) tangent_.solve_once(step);
+  if (step.size()) tangent_.solve_correction(step, state.u);
   Correction correction;
   if (mixed_) {
     state.reduced = before + step;
@@ -296,7 +296,8 @@ std::optional<double> NewtonSolver::settle_conditions(NewtonState& state) {
   // The present multipliers balance the displacements: taking them back gives what those would be without any.
   const Eigen::VectorXd held = push_of_active();
   problem.excess = rows.rows * state.reduced - rows.bounds + held;
-  const Eigen::VectorXd magnitudes = tangent_.magnitudes(elimination_.transformation() * state.reduced);
+  const Eigen::VectorXd u = elimination_.transformation() * state.reduced;
+  const Eigen::VectorXd magnitudes = tangent_.magnitudes(u);
   problem.scale = rows.bounds.cwiseAbs() + held.cwiseAbs();
   for (int row = 0; row < rows.rows.outerSize(); ++row)
     for (SparseRows::InnerIterator it(rows.rows, row); it; ++it)
@@ -311,7 +312,7 @@ std::optional<double> NewtonSolver::settle_conditions(NewtonState& state) {
   const Eigen::VectorXd change = solution.multipliers - row_multipliers_;
   if (change.cwiseAbs().maxCoeff() > 0.0) {
     Eigen::MatrixXd push = rows.rows.transpose() * change;
-    tangent_.solve_once(push);
+    tangent_.solve_correction(push, u);
     state.reduced -= push;
   }
   row_multipliers_ = std::move(solution.multipliers);

@@ -92,7 +92,10 @@ class TangentSystem {
   /// Overwrites the columns (reduced_size x k) by K^-1 times them.
   void solve(Eigen::Ref<Eigen::MatrixXd> columns);
   /// The same where iterations around it correct what is missing (LinearSolver::solve_once).
-  void solve_once(Eigen::Ref<Eigen::MatrixXd> columns);
+  void solve_once(Eigen::Ref<Eigen::MatrixXd> columns) { solve_once(columns, {}); }
+  /// The same for a correction of the displacements u (all unknowns): what their rounding makes of the residual may be
+  /// left of it, if that is little beside it.
+  void solve_correction(Eigen::Ref<Eigen::MatrixXd> column, const Eigen::VectorXd& u);
 
   /// Whether `compliance` gives one.
   bool gives_compliance() const { return !unsymmetric_ && solver_ && elimination_.reduced_size() >= large_solid; }
@@ -129,6 +132,7 @@ class TangentSystem {
   Eigen::VectorXd sizes_times(const Eigen::VectorXd& u) const;
 
  private:
+  void solve_once(Eigen::Ref<Eigen::MatrixXd> columns, const Eigen::VectorXd& rounding);
   /// The largest unknowns of a body.
   struct Largest {
     double translation = 0.0, rotation = 0.0, other = 0.0;
