@@ -32,6 +32,8 @@ bool share_a_node(std::span<const int> a, std::span<const int> b) {
   return std::ranges::any_of(a, [&](int node) { return std::ranges::find(b, node) != b.end(); });
 }
 
+bool is_curved(CellType type) { return node_count(type) > corner_count(type); }
+
 }  // namespace
 
 FacetSearch::FacetSearch(const ContactZone& zone, bool smooth, const Mesh& mesh, Positions positions)
@@ -67,8 +69,7 @@ std::vector<Box> FacetSearch::facet_boxes() const {
   for (const int cell : zone_.master_cells) {
     Box box;
     for (const int node : mesh_.cell(cell)) box.extend(positions_[node]);
-    const bool is_curved = node_count(mesh_.cell_types[cell]) > corner_count(mesh_.cell_types[cell]);
-    const double margin = is_curved ? bulge * box.diagonal().norm() : 0.0;
+    const double margin = is_curved(mesh_.cell_types[cell]) ? bulge * box.diagonal().norm() : 0.0;
     boxes.emplace_back(box.min().array() - margin, box.max().array() + margin);
   }
   return boxes;
@@ -93,12 +94,12 @@ bool FacetSearch::too_far(const Vector3d& point) const {
 FacetSearch::Hit FacetSearch::nearest_facet(const Vector3d& point, const OwnNodes& own, Counted counted,
                                             double within) const {
   Hit best;
-  best.projection.distance = infinitely_far;
+  best.projection.distance = within;
   facets_.search(point, [&](int item) {
     consider(point, own, zone_.master_cells[item], counted, best);
     // Along a direction a facet that is far may be met where a near one is passed by.
     if (zone_.pairing_direction && (best.facet < 0 || best.projection.outside > 0.0)) return infinitely_far;
-    return std::min(best.projection.distance, within) * (1.0 + search_margin) + search_margin;
+    return best.projection.distance * (1.0 + search_margin) + search_margin;
   });
   return best;
 }
@@ -207,13 +208,17 @@ void FacetSearch::consider(const Vector3d& point, const OwnNodes& own, int facet
   std::array<Vector3d, max_facet_nodes> points;
   Box box;
   const auto places = places_of(facet, points, box);
-  const auto found = projected(point, mesh_.cell_types[facet], places);
+  const CellType type = mesh_.cell_types[facet];
+  const double tie = tie_tolerance * std::max(point.cwiseAbs().maxCoeff(), box.diagonal().norm());
+  // No place of a facet that does not bulge is nearer than its box.
+  const bool may_be_passed_over = !zone_.pairing_direction && !is_curved(type);
+  if (may_be_passed_over && box.exteriorDistance(point) > best.projection.distance + tie) return;
+  const auto found = projected(point, type, places);
   if (!found || (counted == Counted::opposing && !opposes({facet, *found}, *own.outward))) return;
   if (zone_.pairing_direction && best.facet >= 0 && (found->outside > 0.0) != (best.projection.outside > 0.0)) {
     if (found->outside == 0.0) best = {facet, *found};
     return;
   }
-  const double tie = tie_tolerance * std::max(point.cwiseAbs().maxCoeff(), box.diagonal().norm());
   const double gain = best.projection.distance - found->distance;
   if (gain > tie || (gain >= -tie && facet < best.facet)) best = {facet, *found};
 }

@@ -76,7 +76,7 @@ class FacetSearch {
   std::span<const Eigen::Vector3d> places_of(int facet, std::array<Eigen::Vector3d, max_facet_nodes>& points,
                                              Box& box) const;
   enum class Counted : std::uint8_t { all, opposing };
-  /// Facets that are farther than `within` need not be looked at.
+  /// The nearest facet, if it is nearer than `within`; else facet -1 at that distance.
   Hit nearest_facet(const Eigen::Vector3d& point, const OwnNodes& own, Counted counted, double within) const;
   Hit around_nearest_node(const Eigen::Vector3d& point, const OwnNodes& own) const;
   Hit nearest_counted(const Eigen::Vector3d& point, const OwnNodes& own) const;

@@ -91,19 +91,17 @@ class ContinuumBlock : public ElementBlock {
   }
 
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
-    std::array<int, size> dofs;
-    double* target = out.data();
-    for (int element = 0; element < map_.element_count(); ++element) {
-      map_.dofs(element, dofs.data());
-      const Displacements displacements = relative_displacements(u, dofs);
+    for_each_apart(map_.element_count(), evaluates_no_function(state), [&](int element) {
+      const Displacements displacements = relative_displacements(u, dofs_of(element));
       const Coordinates x = coordinates(element);
+      double* target = out.data() + static_cast<std::size_t>(element) * samples_.size() * strains;
       for (int g = 0; g < point_count(); ++g) {
         const Behaviour behaviour(*this, element, g, x, state);
         const Strain elastic = strain(displacements, samples_[g], locate(x, samples_[g])) - behaviour.inelastic;
         Eigen::Map<Strain>(target).noalias() = *behaviour.law * elastic;
         target += strains;
       }
-    }
+    });
   }
 
   void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {

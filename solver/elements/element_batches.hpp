@@ -47,4 +47,18 @@ void for_each_in_batches(int count, bool concurrent, Compute&& compute, Add&& ad
   add_batch((count - 1) / batch * batch, items[static_cast<std::size_t>(1 - turn)]);
 }
 
+/// Calls each(element) for each of `count` elements, on all threads if `concurrent` says that it bears it: what it
+/// writes must be the element's own.
+template <class Each>
+void for_each_apart(int count, bool concurrent, Each&& each) {
+  // So many elements outweigh the start of a thread.
+  constexpr int fewest_of_part = 512;
+  constexpr int most_parts = 16;
+  const int parts = concurrent ? std::clamp(count / fewest_of_part, 1, most_parts) : 1;
+  const auto share = [&](int part) { return static_cast<int>(static_cast<long>(count) * part / parts); };
+  run_parts(parts, [&](int part) {
+    for (int element = share(part); element < share(part + 1); ++element) each(element);
+  });
+}
+
 }  // namespace comma::solver

@@ -6,7 +6,8 @@
 
 namespace comma::solver {
 
-bool KnownSolutions::take(Eigen::Ref<Eigen::VectorXd> load, const Eigen::VectorXd& row_sizes) {
+bool KnownSolutions::take(Eigen::Ref<Eigen::VectorXd> load, const Eigen::VectorXd& row_sizes,
+                          const Eigen::VectorXd& rounding) {
   if (load.size() == 0 || row_sizes.size() != load.size()) return false;
   Eigen::Index place = 0;
   load.cwiseAbs().maxCoeff(&place);
@@ -15,7 +16,9 @@ bool KnownSolutions::take(Eigen::Ref<Eigen::VectorXd> load, const Eigen::VectorX
     const double factor = load[place] / known.load[place];
     if (!std::isfinite(factor) || factor == 0.0) continue;
     const double unknown = std::abs(factor) * known.solution.cwiseAbs().maxCoeff();
-    if (!((load - factor * known.load).array().abs() <= backward_error * unknown * row_sizes.array()).all()) continue;
+    Eigen::VectorXd allowed = backward_error * unknown * row_sizes;
+    if (rounding.size()) allowed = allowed.cwiseMax(rounding);
+    if (!((load - factor * known.load).array().abs() <= allowed.array()).all()) continue;
     load = factor * known.solution;
     std::rotate(known_.begin() + static_cast<std::ptrdiff_t>(k), known_.begin() + static_cast<std::ptrdiff_t>(k) + 1,
                 known_.end());

@@ -15,8 +15,9 @@ class KnownSolutions {
  public:
   /// Overwrites the load (n) by its solution, if it is a multiple of a known one. The multiple of the solution then
   /// leaves of each equation less than `backward_error` of its row of |K| (`row_sizes`, n: sums of |K_ij|) times the
-  /// largest unknown, which is what the rounding of a direct solution leaves.
-  bool take(Eigen::Ref<Eigen::VectorXd> load, const Eigen::VectorXd& row_sizes);
+  /// largest unknown, which is what the rounding of a direct solution leaves, or less than `rounding` (n, a force
+  /// each), where that is more: of what the solution is added to. Empty: 0.
+  bool take(Eigen::Ref<Eigen::VectorXd> load, const Eigen::VectorXd& row_sizes, const Eigen::VectorXd& rounding = {});
   /// K^-1 load.
   void add(Eigen::VectorXd load, Eigen::VectorXd solution);
   void forget() { known_.clear(); }

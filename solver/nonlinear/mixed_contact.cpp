@@ -272,7 +272,7 @@ int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& 
   const std::vector<ContactStatus> statuses = state_.statuses;
   Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
   forces.head(forces_.size()) = is_secant() ? secants_.held : forces_;
-  settle_in_rounds(*schur_, [&] { return settle(before, offset, forces, corrected); });
+  settle_in_rounds(*schur_, tangent_.negligible_rest(), [&] { return settle(before, offset, forces, corrected); });
   forces_ = forces.head(forces_.size());
   if (is_secant())
     note_solved(elimination_.transformation() * before + offset, elimination_.transformation() * corrected + offset);
@@ -346,7 +346,7 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   const double most = largest_component(change);
   if (most > 0.0) {
     Eigen::MatrixXd push = schur_->rows().transpose() * change;
-    tangent_.solve_once(push);
+    tangent_.solve_correction(push, u);
     corrected += push;
   }
   forces = solution.forces;

@@ -64,6 +64,7 @@ NewtonSolver::NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler
 void NewtonSolver::start_step(double duration) {
   policy_ = options_.tangent;
   most_iterations_ = options_.max_iterations;
+  duration_ = duration;
   is_short_ = duration < policy_.elastic_below;
   if (!is_short_) return;
   policy_.correction = TangentKind::elastic;
@@ -81,7 +82,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
   for (int iteration = 1; iteration <= most; ++iteration) {
     if (iteration > 1 && is_tangent_due(policy_, tangent_, iteration, steps_) &&
         tangent_.refresh(state.u, kind_of(iteration)))
-      forget_compliance();
+      forget_stiffness();
     ++counters_.newton_iterations;
     const Eigen::VectorXd before = state.reduced, where = state.u, balance = balance_;
     Correction correction = correct(state, offset);
@@ -150,18 +151,23 @@ void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd&
   const Eigen::VectorXd moved = elimination_.transformation() * state.reduced + offset;
   const Eigen::VectorXd imposed = moved - state.u;
   const bool is_linear = tangent_.is_constant();
+  const Eigen::VectorXd before = state.u;
   if (is_linear) state.u = moved;
   variable_forces_ = assembler_.variable_forces();
   weights_.take(assembler_, elimination_);
   const bool is_other =
       is_short_ && tangent_.kind() != policy_.correction;  // one that is not due goes on from a step of normal length
   if ((is_other || is_tangent_due(policy_, tangent_, 1, steps_)) && tangent_.refresh(state.u, kind_of(1)))
-    forget_compliance();
-  measure(loads_at(state.u, external), assembler_.starting_forces(state.u));
+    forget_stiffness();
+  const auto forces_at = [&](const Eigen::VectorXd& u) { return assembler_.starting_forces(u); };
+  const bool may_be_known = is_linear && variable_forces_.size() == 0;
+  measure(loads_at(state.u, external),
+          may_be_known ? known_forces_.after_move(before, moved, forces_at) : forces_at(state.u));
   if (!is_linear && !imposed.isZero(0.0)) residual_ -= tangent_.reduced_forces(state.u, imposed, kind_of(1));
 }
 
-void NewtonSolver::forget_compliance() {
+void NewtonSolver::forget_stiffness() {
+  known_forces_ = {};
   if (schur_) schur_->forget();
   if (mixed_) mixed_->forget();
 }
@@ -185,6 +191,7 @@ void NewtonSolver::take_conditions(double time, const ConditionSet& conditions, 
   // Of linear bodies the solution does not depend on where it is sought from, and with an exact compliance nor does the
   // work.
   const bool expects = tangent_.is_constant() && !schur_->is_exact();
+  course_.begin(time - duration_, state.multipliers);
   const Eigen::VectorXd multipliers = expects ? course_.expected(time, state.multipliers) : state.multipliers;
   row_multipliers_.resize(static_cast<Eigen::Index>(reduced_.origin.size()));
   active_.clear();
@@ -200,32 +207,11 @@ TangentKind NewtonSolver::kind_of(int iteration) const {
   return at_start(prediction_);
 }
 
-/// With those that follow.
-Eigen::VectorXd NewtonSolver::loads_at(const Eigen::VectorXd& u, const Eigen::VectorXd& external) const {
-  return followers_ ? Eigen::VectorXd(external + followers_->at(u)) : external;
-}
-
-void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& external) {
-  measure(loads_at(state.u, external), assembler_.internal_forces(state.u));
-}
-
-/// Residual of the reduced unknowns and the size of the loads, reactions, contact forces and those of command variables
-/// included.
-void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal) {
-  balance_ = loads - internal;
-  residual_ = elimination_.transformation().transpose() * balance_;
-  if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
-  if (mixed_) residual_ += mixed_->forces();
-  load_ = knows_reactions() && reactions_.size() ? load_with_reactions(loads, internal)
-                                                 : weights_.load_size(loads, internal, variable_forces_);
-  applied_ = largest_component(loads);
-}
-
 NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::VectorXd& offset) {
   const Eigen::VectorXd before = state.reduced;
   Eigen::MatrixXd step = residual_;
   if (mixed_) step -= mixed_->forces_left_out();
-  if (step.size()) tangent_.solve_once(step);
+  if (step.size()) tangent_.solve_correction(step, state.u);
   Correction correction;
   if (mixed_) {
     state.reduced = before + step;
@@ -292,7 +278,7 @@ NewtonSolver::Correction NewtonSolver::correct_with_conditions(NewtonState& stat
   if (!by_compliance())
     settle_conditions(state);
   else
-    settle_in_rounds(*schur_, [&] { return settle_conditions(state); });
+    settle_in_rounds(*schur_, tangent_.negligible_rest(), [&] { return settle_conditions(state); });
   Correction correction;
   correction.changes = count_changes(before, active_);
   state.multipliers.setZero();
@@ -310,7 +296,8 @@ std::optional<double> NewtonSolver::settle_conditions(NewtonState& state) {
   // The present multipliers balance the displacements: taking them back gives what those would be without any.
   const Eigen::VectorXd held = push_of_active();
   problem.excess = rows.rows * state.reduced - rows.bounds + held;
-  const Eigen::VectorXd magnitudes = tangent_.magnitudes(elimination_.transformation() * state.reduced);
+  const Eigen::VectorXd u = elimination_.transformation() * state.reduced;
+  const Eigen::VectorXd magnitudes = tangent_.magnitudes(u);
   problem.scale = rows.bounds.cwiseAbs() + held.cwiseAbs();
   for (int row = 0; row < rows.rows.outerSize(); ++row)
     for (SparseRows::InnerIterator it(rows.rows, row); it; ++it)
@@ -325,7 +312,7 @@ std::optional<double> NewtonSolver::settle_conditions(NewtonState& state) {
   const Eigen::VectorXd change = solution.multipliers - row_multipliers_;
   if (change.cwiseAbs().maxCoeff() > 0.0) {
     Eigen::MatrixXd push = rows.rows.transpose() * change;
-    tangent_.solve_once(push);
+    tangent_.solve_correction(push, u);
     state.reduced -= push;
   }
   row_multipliers_ = std::move(solution.multipliers);

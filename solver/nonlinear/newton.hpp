@@ -13,6 +13,7 @@
 #include "solver/elements/assembler.hpp"
 #include "solver/nonlinear/condition_set.hpp"
 #include "solver/nonlinear/convergence.hpp"
+#include "solver/nonlinear/known_forces.hpp"
 #include "solver/nonlinear/mixed_contact.hpp"
 #include "solver/nonlinear/reference_forces.hpp"
 #include "solver/nonlinear/residual_watch.hpp"
@@ -109,7 +110,7 @@ class NewtonSolver {
   void start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
   void take_conditions(double time, const ConditionSet& conditions, const Eigen::VectorXd& offset,
                        const NewtonState& state);
-  void forget_compliance();
+  void forget_stiffness();
   Correction correct(NewtonState& state, const Eigen::VectorXd& offset);
   void require_at_hand(double time, const Eigen::VectorXd& u) const;
   int further_iterations(double time, const std::vector<IterationReport>& history, double excess) const;
@@ -170,6 +171,7 @@ class NewtonSolver {
   Eigen::VectorXd residual_;         ///< reduced
   Eigen::VectorXd variable_forces_;  ///< with which the strains of the command variables push (all unknowns); empty
                                      ///< where there are none
+  KnownForces known_forces_;
   RowWeights weights_;
   double load_ = 0.0;
   Eigen::VectorXd balance_;  ///< external less internal forces, on all degrees of freedom
@@ -178,7 +180,8 @@ class NewtonSolver {
   Eigen::VectorXd reactions_;  ///< of the linear solves, at the unknowns that conditions hold; zero elsewhere
   int steps_ = 0;              ///< accepted so far
   TangentKind prediction_;
-  TangentPolicy policy_;   ///< of this step
+  TangentPolicy policy_;  ///< of this step
+  double duration_ = 0.0;
   bool is_short_ = false;  ///< this step takes the elastic stiffness because of its length
   int most_iterations_;    ///< of this step
   ResidualWatch watch_;

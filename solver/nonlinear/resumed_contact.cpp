@@ -13,13 +13,16 @@ namespace comma::solver {
 /// Any would do for the next correction to start from; with a compliance that is not exact the nearest cost least.
 void MixedContact::start_forces(double time) {
   CondensedState state = state_;
-  if (problem_.components == 1 && !is_linear() && tangent_.is_constant() && schur_ && !schur_->is_exact())
-    state.multipliers = course_.expected(time, state_.multipliers);
+  if (problem_.components == 1 && !is_linear() && tangent_.is_constant() && schur_) {
+    update_schur();
+    if (!schur_->is_exact()) state.multipliers = course_.expected(time, state_.multipliers);
+  }
   forces_ = multiplier_forces(problem_, state, rows_.full().rows());
 }
 
 void MixedContact::accept_step(double from, double instant) {
   rates_ = (state_.multipliers - start_) / (instant - from);
+  course_.begin(from, start_);
   course_.note(instant, state_.multipliers);
   if (is_secant()) carry_contact();
 }

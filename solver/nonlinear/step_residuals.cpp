@@ -16,6 +16,29 @@ constexpr double lost_load = 1e-3;
 
 }  // namespace
 
+/// With those that follow.
+Eigen::VectorXd NewtonSolver::loads_at(const Eigen::VectorXd& u, const Eigen::VectorXd& external) const {
+  return followers_ ? Eigen::VectorXd(external + followers_->at(u)) : external;
+}
+
+void NewtonSolver::evaluate(const NewtonState& state, const Eigen::VectorXd& external) {
+  const Eigen::VectorXd internal = assembler_.internal_forces(state.u);
+  if (tangent_.is_constant()) known_forces_.note(state.u, internal);
+  measure(loads_at(state.u, external), internal);
+}
+
+/// Residual of the reduced unknowns and the size of the loads, reactions, contact forces and those of command variables
+/// included.
+void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal) {
+  balance_ = loads - internal;
+  residual_ = elimination_.transformation().transpose() * balance_;
+  if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
+  if (mixed_) residual_ += mixed_->forces();
+  load_ = knows_reactions() && reactions_.size() ? load_with_reactions(loads, internal)
+                                                 : weights_.load_size(loads, internal, variable_forces_);
+  applied_ = largest_component(loads);
+}
+
 /// Whether what holds the bodies has the reactions of the linear solves while iterations go on, as multipliers have
 /// them in Code_Aster: what the internal forces there differ by is a residual as well (17.3).
 bool NewtonSolver::knows_reactions() const {

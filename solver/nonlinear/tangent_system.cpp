@@ -20,6 +20,10 @@ namespace {
 constexpr int most_gram_digits = 15;
 /// A support whose pivot has lost more digits counts as none, where contact is to hold the body.
 constexpr int weak_support_digits = 4;
+/// Of displacements that a correction is added to, in |K| |u|: less than what counts as rounding of a residual.
+constexpr double rounding_of_state = 4e-15;
+/// And no more than this share of the load: what is itself rounding is to vanish where nothing else acts.
+constexpr double negligible_residual = 1e-10;
 
 bool has_pivots(LinearMethod method) {
   return method != LinearMethod::conjugate_gradient && method != LinearMethod::multigrid;
@@ -363,7 +367,14 @@ Eigen::MatrixXd TangentSystem::compliance(const RowMatrix& rows) {
   return solver_->compliance(rows);
 }
 
-void TangentSystem::solve_once(Eigen::Ref<Eigen::MatrixXd> columns) {
+void TangentSystem::solve_correction(Eigen::Ref<Eigen::MatrixXd> column, const Eigen::VectorXd& u) {
+  Eigen::VectorXd rounding;
+  if (row_sizes_.size() == column.rows() && loses_few_digits())
+    rounding = (rounding_of_state * sizes_times(u)).cwiseMin(negligible_residual * largest_component(column.col(0)));
+  solve_once(column, rounding);
+}
+
+void TangentSystem::solve_once(Eigen::Ref<Eigen::MatrixXd> columns, const Eigen::VectorXd& rounding) {
   if (unsymmetric_ || !has_factor()) {
     solve(columns);
     return;
@@ -371,7 +382,7 @@ void TangentSystem::solve_once(Eigen::Ref<Eigen::MatrixXd> columns) {
   if (columns.rows() == 0) return;
   const Stopwatch stopwatch(counters_.solving);
   const bool may_be_known = columns.cols() == 1 && !is_saddle_;
-  if (may_be_known && known_.take(columns.col(0), row_sizes_)) return;
+  if (may_be_known && known_.take(columns.col(0), row_sizes_, rounding)) return;
   counters_.solves += columns.cols();
   Eigen::VectorXd load;
   if (may_be_known) load = columns.col(0);

@@ -15,7 +15,7 @@
 #include "solver/linear/unsymmetric_solver.hpp"
 #include "solver/nonlinear/known_solutions.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
-#include "solver/unilateral/schur_complement.hpp"
+#include "solver/unilateral/rounds.hpp"
 
 namespace comma::solver {
 
@@ -92,7 +92,10 @@ class TangentSystem {
   /// Overwrites the columns (reduced_size x k) by K^-1 times them.
   void solve(Eigen::Ref<Eigen::MatrixXd> columns);
   /// The same where iterations around it correct what is missing (LinearSolver::solve_once).
-  void solve_once(Eigen::Ref<Eigen::MatrixXd> columns);
+  void solve_once(Eigen::Ref<Eigen::MatrixXd> columns) { solve_once(columns, {}); }
+  /// The same for a correction of the displacements u (all unknowns): what their rounding makes of the residual may be
+  /// left of it, if that is little beside it.
+  void solve_correction(Eigen::Ref<Eigen::MatrixXd> column, const Eigen::VectorXd& u);
 
   /// Whether `compliance` gives one.
   bool gives_compliance() const { return !unsymmetric_ && solver_ && elimination_.reduced_size() >= large_solid; }
@@ -104,6 +107,10 @@ class TangentSystem {
 
   /// Whether the last factor has nearly all digits, so that a solution needs no correction around it.
   bool loses_few_digits() const { return lost_digits_ <= LinearSolver::few_digits; }
+  /// What rounds of corrections of contact forces may leave, as a share of the largest (settle_in_rounds).
+  double negligible_rest() const {
+    return loses_few_digits() ? negligible_rest_of_stiff_bodies : solver::negligible_rest;
+  }
 
   /// Whether the last factorised tangent of one kind of unknowns has a negative eigenvalue: compliances may be negative
   /// then.
@@ -125,6 +132,7 @@ class TangentSystem {
   Eigen::VectorXd sizes_times(const Eigen::VectorXd& u) const;
 
  private:
+  void solve_once(Eigen::Ref<Eigen::MatrixXd> columns, const Eigen::VectorXd& rounding);
   /// The largest unknowns of a body.
   struct Largest {
     double translation = 0.0, rotation = 0.0, other = 0.0;

@@ -36,10 +36,20 @@ Eigen::VectorXd MultiplierCourse::expected(double time, const Eigen::VectorXd& m
   return (multipliers.array() > 0.0).select(next.cwiseMax(0.0), multipliers);
 }
 
+void MultiplierCourse::begin(double time, const Eigen::VectorXd& multipliers) {
+  if (!steps_.empty()) return;
+  note(time, multipliers);
+  begins_ = true;
+}
+
 void MultiplierCourse::note(double time, const Eigen::VectorXd& multipliers) {
   if (!steps_.empty() && steps_.back().multipliers.size() != multipliers.size()) steps_.clear();
   while (!steps_.empty() && steps_.back().time >= time) steps_.pop_back();
-  if (steps_.size() == most) steps_.erase(steps_.begin());
+  if (steps_.empty()) begins_ = false;
+  if (steps_.size() == (begins_ ? 3 : most)) {
+    steps_.erase(steps_.begin());
+    begins_ = false;
+  }
   steps_.push_back({time, multipliers});
 }
 

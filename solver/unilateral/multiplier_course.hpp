@@ -16,6 +16,9 @@ class MultiplierCourse {
   /// multipliers; else these. The polynomial goes through as many steps as would have foretold the last one best, or
   /// one more where that was as many as there were. A multiplier that is zero stays so, and none becomes negative.
   Eigen::VectorXd expected(double time, const Eigen::VectorXd& multipliers) const;
+  /// What the first step begins with, and when: nothing afterwards. It counts for the next two: where contact comes
+  /// about, it does so from another geometry than that of later steps, which foretell each other better from then on.
+  void begin(double time, const Eigen::VectorXd& multipliers);
   /// The solution of a step. Those of the same time and later ones are no more.
   void note(double time, const Eigen::VectorXd& multipliers);
 
@@ -31,6 +34,7 @@ class MultiplierCourse {
   std::size_t best_count() const;
 
   std::vector<Step> steps_;  ///< the last one at the end
+  bool begins_ = false;      ///< the first of them is no step, but what the first one began with
 };
 
 }  // namespace comma::solver

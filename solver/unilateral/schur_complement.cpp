@@ -193,6 +193,7 @@ bool SchurComplement::solve_whole(const std::vector<int>& missing) {
   if (softness_.size()) whole_matrix_.diagonal() += softness_;
   source_ = rows_;
   exact_ = true;
+  most_left_.reset();
   ++version_;
   return true;
 }
@@ -313,6 +314,7 @@ bool SchurComplement::replace_factored_rows(RowMatrix& rows, std::vector<int>& k
 
 void SchurComplement::clear() {
   ++version_;
+  most_left_.reset();
   source_ = rows_;
   columns_.assign(static_cast<std::size_t>(rows_.rows()), Eigen::VectorXd());
   whole_matrix_.resize(0, 0);
@@ -380,6 +382,7 @@ void SchurComplement::complete_columns(const std::vector<int>& added) {
 }
 
 void SchurComplement::forget() {
+  most_left_.reset();
   compliance_.assign(support_.size(), Eigen::VectorXd());
   if (keeps_compliance()) factor_.resize(0, 0);
   if (keeps_compliance() || !has_columns())

@@ -1,6 +1,7 @@
 // The compliance seen by inequality rows: S = A K^-1 A^T, computed column by column as rows become active.
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <span>
@@ -102,6 +103,10 @@ class SchurComplement {
   bool is_exact() const { return exact_; }
   /// Makes it so, at the price of all columns.
   void start_anew();
+  /// The largest share of a change that rounds of corrections with these columns have left to the next one; 1 before
+  /// any has been noted.
+  double most_left() const { return most_left_.value_or(1.0); }
+  void note_left(double share) { most_left_ = std::max(share, most_left_.value_or(0.0)); }
   /// Another one whenever a known entry may have changed, or its row's number.
   long version() const { return version_; }
 
@@ -161,6 +166,7 @@ class SchurComplement {
   std::vector<Eigen::VectorXd> compliance_;
   bool rows_change_ = false;
   bool exact_ = true;
+  std::optional<double> most_left_;
   long version_ = 0;
 };
 

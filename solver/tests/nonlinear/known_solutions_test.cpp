@@ -35,6 +35,7 @@ TEST_CASE("A multiple of an earlier load takes the multiple of its solution, ano
   const Eigen::VectorXd same = other;
   CHECK_FALSE(known.take(other, row_sizes));
   CHECK(other == same);
+  CHECK(known.take(other, row_sizes, Eigen::VectorXd::Constant(size, 2e-9)));
   Eigen::VectorXd nothing = Eigen::VectorXd::Zero(size);
   CHECK_FALSE(known.take(nothing, row_sizes));
 

@@ -24,6 +24,20 @@ TEST_CASE("A course goes on as its last steps do, of whatever length") {
   }
 }
 
+TEST_CASE("What the first step begins with foretells the next two, and nothing afterwards") {
+  MultiplierCourse course;
+  const auto bent = [](double time) -> Eigen::VectorXd {
+    return Eigen::Vector2d::Constant(time > 0.0 ? 1.0 + time * time : 0.0);
+  };
+  course.begin(0.0, bent(0.0));
+  course.note(0.1, bent(0.1));
+  course.begin(0.05, bent(0.05));
+  CHECK((course.expected(0.2, bent(0.1)) - 2.0 * bent(0.1)).norm() < 1e-13);
+  course.note(0.2, bent(0.2));
+  course.note(0.3, bent(0.3));
+  CHECK((course.expected(0.4, bent(0.3)) - bent(0.4)).norm() < 1e-13);
+}
+
 TEST_CASE("A course that jumps is expected to stay where it is") {
   MultiplierCourse course;
   const Eigen::VectorXd low = Eigen::VectorXd::Constant(2, 1.0), high = Eigen::VectorXd::Constant(2, 2.0);
