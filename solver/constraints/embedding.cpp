@@ -1,5 +1,6 @@
 #include "solver/constraints/embedding.hpp"
 
+#include <array>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -67,15 +68,25 @@ struct Guest {
   Eigen::Vector3d at;
 };
 
+/// The nearest point of a facet of the cell: its orthogonal foot, or where that lies outside of a face one of an edge.
 Embedding on_facet(const Mesh& mesh, const Guest& guest, int cell, CellType type, std::span<const int> local) {
   std::vector<Eigen::Vector3d> points;
   for (const int a : local) points.push_back(place(mesh, mesh.cell(cell)[a]));
   Embedding result{guest.node, cell, std::vector<double>(mesh.cell(cell).size(), 0.0),
                    std::numeric_limits<double>::infinity()};
   const auto foot = project_exactly(guest.at, type, points);
-  if (!foot) return result;
-  result.distance = foot->distance;
-  for (std::size_t a = 0; a < local.size(); ++a) result.weights[local[a]] = foot->weights[a];
+  if (foot && (dimension(type) == 1 || foot->outside <= inside_tolerance)) {
+    result.distance = foot->distance;
+    for (std::size_t a = 0; a < local.size(); ++a) result.weights[local[a]] = foot->weights[a];
+    return result;
+  }
+  if (dimension(type) == 1) return result;
+  for (const BoundaryFacet& edge : boundary_facets(type)) {
+    std::vector<int> ends;
+    for (int a = 0; a < node_count(edge.type); ++a) ends.push_back(local[static_cast<std::size_t>(edge.nodes[a])]);
+    Embedding here = on_facet(mesh, guest, cell, edge.type, ends);
+    if (here.distance < result.distance) result = std::move(here);
+  }
   return result;
 }
 
@@ -112,8 +123,9 @@ std::vector<Box> boxes_of(const Mesh& mesh, std::span<const int> cells) {
   return boxes;
 }
 
-std::vector<Embedding> nearest_hosts(const Mesh& mesh, std::span<const Guest> guests, std::span<const int> cells,
-                                     double farthest) {
+/// The hosts of all; `cell` is -1 where none is within `farthest`.
+std::vector<Embedding> hosts_within(const Mesh& mesh, std::span<const Guest> guests, std::span<const int> cells,
+                                    double farthest) {
   const BoxTree tree(boxes_of(mesh, cells));
   std::vector<Embedding> result;
   for (const Guest& guest : guests) {
@@ -125,12 +137,19 @@ std::vector<Embedding> nearest_hosts(const Mesh& mesh, std::span<const Guest> gu
       if (is_better) best = std::move(here);
       return best.distance;
     });
-    if (best.cell < 0 || best.distance > farthest) {
-      throw Error("no-host", fmt::format("node {} is tied to no cell: the nearest is at {:.6g}",
-                                         mesh.node_name(guest.node), best.distance));
-    }
+    if (!(best.distance <= farthest)) best.cell = -1;
     result.push_back(std::move(best));
   }
+  return result;
+}
+
+std::vector<Embedding> nearest_hosts(const Mesh& mesh, std::span<const Guest> guests, std::span<const int> cells,
+                                     double farthest) {
+  auto result = hosts_within(mesh, guests, cells, farthest);
+  for (const Embedding& embedding : result)
+    if (embedding.cell < 0)
+      throw Error("no-host", fmt::format("node {} is tied to no cell: the nearest is at {:.6g}",
+                                         mesh.node_name(embedding.node), embedding.distance));
   return result;
 }
 
@@ -153,6 +172,13 @@ std::vector<Embedding> embed_moved(const Mesh& mesh, std::span<const int> nodes,
   for (const int node : nodes)
     if (known.insert(node).second) guests.push_back({node, placement(place(mesh, node))});
   return nearest_hosts(mesh, guests, cells, farthest);
+}
+
+std::vector<Embedding> embed_places(const Mesh& mesh, std::span<const Eigen::Vector3d> places,
+                                    std::span<const int> cells, double farthest) {
+  std::vector<Guest> guests;
+  for (const Eigen::Vector3d& at : places) guests.push_back({static_cast<int>(guests.size()), at});
+  return hosts_within(mesh, guests, cells, farthest);
 }
 
 namespace {
@@ -264,6 +290,55 @@ std::vector<LinearRelation> normal_embedding_relations(const Mesh& mesh, const D
                   "name the edges of plane bodies, and the faces of solids");
     }
     relations.push_back(relation_along(mesh, embedding, normal->second, rotation * normal->second, origin));
+  }
+  return relations;
+}
+
+namespace {
+
+/// Adds factor . u at the place of the host.
+void add_place(const Mesh& mesh, const Embedding& host, const Eigen::Vector3d& factor, LinearRelation& relation) {
+  const auto nodes = mesh.cell(host.cell);
+  for (std::size_t a = 0; a < nodes.size(); ++a)
+    for (int c = 0; c < 3; ++c)
+      if (const double term = host.weights[a] * factor[c]; std::abs(term) > negligible_weight)
+        relation.terms.push_back({nodes[a], static_cast<Component>(c), term});
+}
+
+/// The rotation about a direction across the normal is that of the fibre.
+LinearRelation fibre_rotation(const Mesh& mesh, int node, std::span<const Embedding> ends,
+                              const Eigen::Vector3d& normal, const Eigen::Vector3d& about, double thickness,
+                              const Origin& origin) {
+  LinearRelation relation{{}, 0.0, {}, origin};
+  for (int c = 0; c < 3; ++c)
+    if (std::abs(about[c]) > negligible_weight)
+      relation.terms.push_back({node, static_cast<Component>(3 + c), about[c]});
+  const Eigen::Vector3d along = about.cross(normal) / thickness;
+  add_place(mesh, ends[0], along, relation);
+  add_place(mesh, ends[1], -along, relation);
+  return relation;
+}
+
+}  // namespace
+
+std::vector<LinearRelation> fibre_relations(const Mesh& mesh, const DofMap& dofs, std::span<const int> nodes,
+                                            std::span<const int> cells, const std::map<int, Eigen::Vector3d>& normals,
+                                            double thickness, double farthest, const Origin& origin) {
+  std::vector<LinearRelation> relations = embedding_relations(
+      mesh, dofs, embed_moved(mesh, nodes, cells, Placement(), farthest), origin, Eigen::Matrix3d::Identity());
+  for (const int node : nodes) {
+    const auto found = normals.find(node);
+    if (found == normals.end())
+      throw Error("no-normal", fmt::format("the field of normals has none at node {}", mesh.node_name(node)));
+    if (dofs.dof(node, Component::drx) < 0)
+      throw Error("unknown-dof", fmt::format("node {} has no rotations, as nodes of shells do", mesh.node_name(node)));
+    const Eigen::Vector3d normal = unit(found->second);
+    const std::array<Eigen::Vector3d, 2> at = {place(mesh, node) - 0.5 * thickness * normal,
+                                               place(mesh, node) + 0.5 * thickness * normal};
+    const auto ends = embed_places(mesh, at, cells, std::numeric_limits<double>::infinity());
+    const Eigen::Vector3d first = normal.unitOrthogonal();
+    for (const Eigen::Vector3d& about : {first, Eigen::Vector3d(normal.cross(first))})
+      relations.push_back(fibre_rotation(mesh, node, ends, normal, about, thickness, origin));
   }
   return relations;
 }
