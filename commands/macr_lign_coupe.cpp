@@ -85,7 +85,7 @@ std::optional<int> first_end(const solver::Mesh& mesh, const std::vector<int>& s
   return found == segments.end() ? std::nullopt : std::optional(mesh.cell(*found)[0]);
 }
 
-// A line of cells is walked as they run; its points are looked for in the body like others.
+// A line of cells is walked as they run, from end to end of each; its points are looked for in the body like others.
 CutLine line_of_cells(const Keywords& line) {
   const solver::Mesh& mesh = *line.data<MeshConcept>("MAILLAGE").mesh;
   CutLine cut;
@@ -94,8 +94,9 @@ CutLine line_of_cells(const Keywords& line) {
     if (solver::dimension(mesh.cell_types[segment]) != 1)
       throw DiagnosticError("not-a-line", "MACR_LIGN_COUPE: the cells are no line of segments",
                             line.span_of("GROUP_MA"));
+  const auto ends = solver::nodes_of_cells(mesh, segments, solver::NodeRole::corner);
   for (const int node : solver::nodes_along_line(mesh, segments, first_end(mesh, segments), {}, {}))
-    cut.points.nodes.push_back(mesh.nodes[node]);
+    if (std::ranges::binary_search(ends, node)) cut.points.nodes.push_back(mesh.nodes[node]);
   return cut;
 }
 

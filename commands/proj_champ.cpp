@@ -87,7 +87,8 @@ void place_nodes(Meeting& meeting, const solver::Mesh& moved, const std::vector<
   for (const int node : nodes) wanted.push_back(at[static_cast<std::size_t>(node)]);
   for (solver::Embedding& host : solver::embed_places(moved, wanted, cells, farthest)) {
     host.node = nodes[static_cast<std::size_t>(host.node)];
-    meeting.hosts[static_cast<std::size_t>(host.node)] = std::move(host);
+    solver::Embedding& known = meeting.hosts[static_cast<std::size_t>(host.node)];
+    if (host.cell >= 0 && (known.cell < 0 || host.distance < known.distance)) known = std::move(host);
   }
 }
 

@@ -34,7 +34,9 @@ std::vector<Embedding> embed_moved(const Mesh& mesh, std::span<const int> nodes,
                                    double farthest = std::numeric_limits<double>::infinity());
 
 /// Places in space with their hosts, `node` being the number of the place; `cell` is -1 for one further than `farthest`
-/// from all cells. Of cells equally near the first is taken.
+/// from all cells. Of cells equally near the first is taken. As in Code_Aster 17.3 nearness is that to the cells which
+/// the corners make; the weights are those of the whole cell at the point, up to 0.02 outside of it in the coordinates
+/// of the reference cell, and further beside it those where the corners put the nearest place.
 std::vector<Embedding> embed_places(const Mesh& mesh, std::span<const Eigen::Vector3d> places,
                                     std::span<const int> cells, double farthest);
 
