@@ -1,5 +1,6 @@
 #include "solver/constraints/embedding.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numeric>
@@ -132,74 +133,14 @@ Embedding on_cell(const Mesh& mesh, const Guest& guest, int cell) {
   return best;
 }
 
-/// Boxes of the cells, wider by half their size where sides may bulge out of the box of their nodes.
 std::vector<Box> boxes_of(const Mesh& mesh, std::span<const int> cells) {
   std::vector<Box> boxes;
   for (const int cell : cells) {
-    Box box;
+    Box& box = boxes.emplace_back();
     for (const int node : mesh.cell(cell)) box.extend(place(mesh, node));
-    const bool may_bulge = node_count(mesh.cell_types[cell]) > corner_count(mesh.cell_types[cell]);
-    if (may_bulge) {
-      const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.5 * box.diagonal().norm());
-      box = Box(box.min() - margin, box.max() + margin);
-    }
-    boxes.push_back(box);
   }
   return boxes;
 }
-
-/// The hosts of all; `cell` is -1 where none is within `farthest`.
-std::vector<Embedding> hosts_within(const Mesh& mesh, std::span<const Guest> guests, std::span<const int> cells,
-                                    double farthest) {
-  const BoxTree tree(boxes_of(mesh, cells));
-  std::vector<Embedding> result;
-  for (const Guest& guest : guests) {
-    Embedding best{guest.node, -1, {}, std::numeric_limits<double>::infinity()};
-    tree.search(guest.at, [&](int item) {
-      Embedding here = on_cell(mesh, guest, cells[item]);
-      const bool is_better =
-          here.distance < best.distance || (here.distance == best.distance && cells[item] < best.cell);
-      if (is_better) best = std::move(here);
-      return best.distance;
-    });
-    if (!(best.distance <= farthest)) best.cell = -1;
-    result.push_back(std::move(best));
-  }
-  return result;
-}
-
-std::vector<Embedding> nearest_hosts(const Mesh& mesh, std::span<const Guest> guests, std::span<const int> cells,
-                                     double farthest) {
-  auto result = hosts_within(mesh, guests, cells, farthest);
-  for (const Embedding& embedding : result)
-    if (embedding.cell < 0)
-      throw Error("no-host", fmt::format("node {} is tied to no cell: the nearest is at {:.6g}",
-                                         mesh.node_name(embedding.node), embedding.distance));
-  return result;
-}
-
-}  // namespace
-
-std::vector<Embedding> embed(const Mesh& mesh, std::span<const int> nodes, std::span<const int> cells,
-                             double farthest) {
-  std::set<int> known;
-  for (const int cell : cells) known.insert(mesh.cell(cell).begin(), mesh.cell(cell).end());
-  std::vector<Guest> guests;
-  for (const int node : nodes)
-    if (known.insert(node).second) guests.push_back({node, place(mesh, node)});
-  return nearest_hosts(mesh, guests, cells, farthest);
-}
-
-std::vector<Embedding> embed_moved(const Mesh& mesh, std::span<const int> nodes, std::span<const int> cells,
-                                   const Placement& placement, double farthest) {
-  std::set<int> known;
-  std::vector<Guest> guests;
-  for (const int node : nodes)
-    if (known.insert(node).second) guests.push_back({node, placement(place(mesh, node))});
-  return nearest_hosts(mesh, guests, cells, farthest);
-}
-
-namespace {
 
 /// The cells that the corners make, as cells 0, 1 ... on the same nodes.
 Mesh straight_cells(const Mesh& mesh, std::span<const int> cells) {
@@ -254,24 +195,80 @@ std::vector<double> whole_weights(const Mesh& mesh, int cell, const Eigen::Vecto
   return weights_at(type, found && is_inside(type, *found, beside_tolerance) ? *found : near);
 }
 
+/// The hosts among straight cells; `cell` is -1 where none is within `farthest`.
+std::vector<Embedding> straight_hosts(const Mesh& straight, std::span<const Guest> guests, double farthest) {
+  std::vector<int> cells(static_cast<std::size_t>(straight.cell_count()));
+  std::iota(cells.begin(), cells.end(), 0);
+  const BoxTree tree(boxes_of(straight, cells));
+  std::vector<Embedding> result;
+  for (const Guest& guest : guests) {
+    Embedding best{guest.node, -1, {}, std::numeric_limits<double>::infinity()};
+    tree.search(guest.at, [&](int cell) {
+      Embedding here = on_cell(straight, guest, cell);
+      const bool is_better = here.distance < best.distance || (here.distance == best.distance && cell < best.cell);
+      if (is_better) best = std::move(here);
+      return best.distance;
+    });
+    if (!(best.distance <= farthest)) best.cell = -1;
+    result.push_back(std::move(best));
+  }
+  return result;
+}
+
+/// The hosts of all, with the weights of whole cells.
+std::vector<Embedding> hosts_within(const Mesh& mesh, std::span<const Guest> guests, std::span<const int> cells,
+                                    double farthest) {
+  std::vector<int> rising(cells.begin(), cells.end());
+  std::ranges::sort(rising);
+  const Mesh straight = straight_cells(mesh, rising);
+  auto hosts = straight_hosts(straight, guests, farthest);
+  for (std::size_t i = 0; i < hosts.size(); ++i) {
+    Embedding& host = hosts[i];
+    if (host.cell < 0) continue;
+    const int own = rising[static_cast<std::size_t>(host.cell)];
+    if (straight.cell_types[host.cell] != mesh.cell_types[own])
+      host.weights = whole_weights(mesh, own, guests[i].at, host);
+    host.cell = own;
+  }
+  return hosts;
+}
+
+std::vector<Embedding> nearest_hosts(const Mesh& mesh, std::span<const Guest> guests, std::span<const int> cells,
+                                     double farthest) {
+  auto result = hosts_within(mesh, guests, cells, farthest);
+  for (const Embedding& embedding : result)
+    if (embedding.cell < 0)
+      throw Error("no-host", fmt::format("node {} is tied to no cell: the nearest is at {:.6g}",
+                                         mesh.node_name(embedding.node), embedding.distance));
+  return result;
+}
+
 }  // namespace
+
+std::vector<Embedding> embed(const Mesh& mesh, std::span<const int> nodes, std::span<const int> cells,
+                             double farthest) {
+  std::set<int> known;
+  for (const int cell : cells) known.insert(mesh.cell(cell).begin(), mesh.cell(cell).end());
+  std::vector<Guest> guests;
+  for (const int node : nodes)
+    if (known.insert(node).second) guests.push_back({node, place(mesh, node)});
+  return nearest_hosts(mesh, guests, cells, farthest);
+}
+
+std::vector<Embedding> embed_moved(const Mesh& mesh, std::span<const int> nodes, std::span<const int> cells,
+                                   const Placement& placement, double farthest) {
+  std::set<int> known;
+  std::vector<Guest> guests;
+  for (const int node : nodes)
+    if (known.insert(node).second) guests.push_back({node, placement(place(mesh, node))});
+  return nearest_hosts(mesh, guests, cells, farthest);
+}
 
 std::vector<Embedding> embed_places(const Mesh& mesh, std::span<const Eigen::Vector3d> places,
                                     std::span<const int> cells, double farthest) {
   std::vector<Guest> guests;
   for (const Eigen::Vector3d& at : places) guests.push_back({static_cast<int>(guests.size()), at});
-  const Mesh straight = straight_cells(mesh, cells);
-  std::vector<int> all(cells.size());
-  std::iota(all.begin(), all.end(), 0);
-  auto hosts = hosts_within(straight, guests, all, farthest);
-  for (Embedding& host : hosts) {
-    if (host.cell < 0) continue;
-    const int own = cells[static_cast<std::size_t>(host.cell)];
-    if (straight.cell_types[host.cell] != mesh.cell_types[own])
-      host.weights = whole_weights(mesh, own, places[static_cast<std::size_t>(host.node)], host);
-    host.cell = own;
-  }
-  return hosts;
+  return hosts_within(mesh, guests, cells, farthest);
 }
 
 namespace {

@@ -22,9 +22,12 @@ struct Embedding {
   double distance = 0.0;        ///< from the node to that point, 0 inside the cell
 };
 
-/// Each node with the nearest of the cells (edges, faces or solids) and the point of it that is nearest. Nodes of the
-/// cells themselves are left out: they move with them anyway. Throws Error `no-host` for a node further than `farthest`
-/// from all cells.
+/// Each node with the nearest of the cells (edges, faces or solids) and the point of it that is nearest. As in
+/// Code_Aster 17.3 nearness is that to the cells which the corners make, of equals the first; the weights are those of
+/// the whole cell at the node, up to a hundredth of the reference cell outside of it, and further off (on lines, and on
+/// surfaces in space, whatever the distance) those where the corners put the nearest place. Nodes of the cells
+/// themselves are left out: they move with them anyway. Throws Error `no-host` for a node further than `farthest` from
+/// all cells.
 std::vector<Embedding> embed(const Mesh& mesh, std::span<const int> nodes, std::span<const int> cells,
                              double farthest = std::numeric_limits<double>::infinity());
 
@@ -33,10 +36,8 @@ std::vector<Embedding> embed_moved(const Mesh& mesh, std::span<const int> nodes,
                                    const Placement& placement,
                                    double farthest = std::numeric_limits<double>::infinity());
 
-/// Places in space with their hosts, `node` being the number of the place; `cell` is -1 for one further than `farthest`
-/// from all cells. Of cells equally near the first is taken. As in Code_Aster 17.3 nearness is that to the cells which
-/// the corners make; the weights are those of the whole cell at the point, up to 0.02 outside of it in the coordinates
-/// of the reference cell, and further beside it those where the corners put the nearest place.
+/// The same for places in space, `node` being the number of the place; `cell` is -1 for one further than `farthest`
+/// from all cells.
 std::vector<Embedding> embed_places(const Mesh& mesh, std::span<const Eigen::Vector3d> places,
                                     std::span<const int> cells, double farthest);
 
