@@ -53,6 +53,7 @@ struct Turning {
   const solver::Mesh& mesh;
   const solver::Model* model;
   const solver::Field& field;
+  bool& meets_axis;  // set where a row has no axes of its own
 };
 
 // The places of the rows as nodes of a mesh.
@@ -98,8 +99,9 @@ solver::Field turned_round_axis(const Keywords& part, const AnyField& field, con
     throw DiagnosticError("missing-keyword", "MODI_REPERE: the direction of the axis is missing", part.span,
                           "give AXE_Z");
   const Eigen::Vector3d axis = part.has("AXE_Z") ? vector_in(part, "AXE_Z") : Eigen::Vector3d::UnitZ();
-  const auto axes =
-      solver::with_axes_of_neighbours(at, rows, solver::revolution_axes(at, vector_in(part, "ORIGINE"), axis));
+  const solver::NodeAxes own = solver::revolution_axes(at, vector_in(part, "ORIGINE"), axis);
+  turning.meets_axis |= std::ranges::any_of(rows, [&](int row) { return !solver::has_axes(own, row); });
+  const auto axes = solver::with_axes_of_neighbours(at, rows, own);
   return solver::turned(field, rows, axes,
                         dimension == 2 ? solver::TurnedBody::plane_round_axis : solver::TurnedBody::in_space);
 }
@@ -134,31 +136,31 @@ solver::Field turned_field(const Call& call, const Turning& turning) {
   solver::Field field = turning.field;
   const bool is_round = call.text("REPERE") == "CYLINDRIQUE";
   for (const Keywords& part : call.factors("AFFE"))
-    field = turned_part(part, is_round, {turning.mesh, turning.model, field});
+    field = turned_part(part, is_round, {turning.mesh, turning.model, field, turning.meets_axis});
   return field;
 }
 
-std::shared_ptr<FieldConcept> field_in_axes(const Call& call) {
+std::shared_ptr<FieldConcept> field_in_axes(const Call& call, bool& meets_axis) {
   const FieldConcept& data = number_field(call.concept_of("CHAM_GD"), call, "CHAM_GD");
   auto product = std::make_shared<FieldConcept>(data);
   product->multipliers = nullptr;
-  product->field = turned_field(call, {*data.mesh, data.model.get(), data.field});
+  product->field = turned_field(call, {*data.mesh, data.model.get(), data.field, meets_axis});
   return product;
 }
 
 void turn_step(const Call& call, const solver::Result& result, const solver::ResultStep& step,
-               solver::ResultStep& target) {
+               solver::ResultStep& target, bool& meets_axis) {
   for (const Keywords& named : call.factors("MODI_CHAM")) {
     const solver::Field& field = layered_field_of(named, step, named.text("NOM_CHAM"));
     require_one_value_a_point(named.text("NOM_CHAM"), field, named.span_of("NOM_CHAM"));
     require_kind(named, field);
     target.fields.insert_or_assign(named.text("NOM_CHAM"),
-                                   turned_field(call, {result.mesh(), result.model.get(), field}));
+                                   turned_field(call, {result.mesh(), result.model.get(), field, meets_axis}));
   }
 }
 
 // A new result has the turned fields alone.
-std::shared_ptr<ResultConcept> result_in_axes(const Call& call) {
+std::shared_ptr<ResultConcept> result_in_axes(const Call& call, bool& meets_axis) {
   const auto& source = call.data<ResultConcept>("RESULTAT");
   auto product = std::make_shared<ResultConcept>(source);
   product->result.steps.clear();
@@ -167,17 +169,17 @@ std::shared_ptr<ResultConcept> result_in_axes(const Call& call) {
     target.order = step->order;
     target.instant = step->instant;
     target.parameters = step->parameters;
-    turn_step(call, source.result, *step, target);
+    turn_step(call, source.result, *step, target, meets_axis);
     product->result.steps.push_back(std::move(target));
   }
   return product;
 }
 
-void turn_in_place(const Call& call) {
+void turn_in_place(const Call& call, bool& meets_axis) {
   auto& source = call.data<ResultConcept>("RESULTAT");
   for (const solver::ResultStep* step : selected_steps(call, source.result)) {
     const auto own = std::ranges::find(source.result.steps, step->order, &solver::ResultStep::order);
-    turn_step(call, source.result, *step, *own);
+    turn_step(call, source.result, *step, *own, meets_axis);
   }
 }
 
@@ -185,10 +187,20 @@ void turn_in_place(const Call& call) {
 
 Product modi_repere(const Call& call, Context& context) {
   warn_of_missing_instants("MODI_REPERE", call, context.diagnostics);
-  if (call.has("CHAM_GD")) return field_in_axes(call);
-  if (!call.reuse) return result_in_axes(call);
-  turn_in_place(call);
-  return nullptr;
+  bool meets_axis = false;
+  Product product;
+  if (call.has("CHAM_GD"))
+    product = field_in_axes(call, meets_axis);
+  else if (call.reuse)
+    turn_in_place(call, meets_axis);
+  else
+    product = result_in_axes(call, meets_axis);
+  if (meets_axis)
+    context.diagnostics.alarm("node-on-axis",
+                              "MODI_REPERE: some values lie on the axis, where there is no radial direction: they take "
+                              "the axes of the nearest ones off it",
+                              call.span, "leave them out of AFFE");
+  return product;
 }
 
 }  // namespace comma::commands
