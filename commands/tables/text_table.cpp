@@ -123,13 +123,13 @@ Table read_aster_table(std::istream& file, const std::string& separator, int num
   int found = 0;
   std::string line;
   while (std::getline(file, line))
-    if (line.starts_with("#DEBUT_TABLE") && ++found == number) break;
+    if (line.find("#DEBUT_TABLE") != std::string::npos && ++found == number) break;
   if (found < number) tell_missing_table(number, found);
   std::string title;
   Words names;
   std::vector<ColumnKind> kinds;
   std::vector<Words> rows;
-  while (std::getline(file, line) && !line.starts_with("#FIN_TABLE")) {
+  while (std::getline(file, line) && line.find("#FIN_TABLE") == std::string::npos) {
     if (line.starts_with("#TITRE")) title += (title.empty() ? "" : "\n") + stripped(line.substr(6));
     if (line.starts_with("#") || stripped(line).empty()) continue;
     const Words words = split(line, separator);
