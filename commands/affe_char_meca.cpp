@@ -15,12 +15,12 @@ namespace comma::commands {
 
 namespace {
 
-// Fields that hold forces may change after the command.
+// Fields that hold forces and displacements may change after the command.
 Product load_concept(const Call& call, std::shared_ptr<const solver::Load> load) {
   auto product = std::make_shared<LoadConcept>();
   product->model = call.data<ModelConcept>("MODELE").model;
   std::vector<interpreter::ConceptPtr> sources;
-  for (const char* keyword : {"VECT_ASSE", "EVOL_CHAR"})
+  for (const char* keyword : {"VECT_ASSE", "EVOL_CHAR", "EVOL_IMPO"})
     if (call.has(keyword)) sources.push_back(call.concept_of(keyword));
   if (sources.empty()) {
     product->load = {{}, [load = std::move(load)] { return load; }};
@@ -31,6 +31,7 @@ Product load_concept(const Call& call, std::shared_ptr<const solver::Load> load)
                    [load = std::move(load), keywords = static_cast<const Keywords&>(call), model = product->model] {
                      auto whole = std::make_shared<solver::Load>(*load);
                      add_forces_of_fields(keywords, LoadedModel(*model), *whole);
+                     add_evolving_displacements(keywords, LoadedModel(*model), *whole);
                      return whole;
                    }};
   return product;

@@ -3,11 +3,14 @@
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
+#include "commands/model/angles.hpp"
 #include "commands/occurrences.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/mesh/conversion.hpp"
+#include "solver/mesh/refinement.hpp"
 #include "solver/mesh/slave_cut.hpp"
+#include "solver/mesh/transform.hpp"
 
 namespace comma::commands {
 
@@ -63,6 +66,40 @@ solver::Mesh cut_slave_faces(const Keywords& cut, const solver::Mesh& mesh) {
       mesh, faces, cut.text("DECOUPE_HEXA") == "HEXA" ? solver::HexaCut::hexahedra : solver::HexaCut::pyramids);
 }
 
+// The row of the table that REPERE means: that of GROUP_MA, else the one that there is.
+const std::vector<Cell>& section_row(const Keywords& frame, const Table& table) {
+  const int place = table.column("LIEU");
+  const std::string wanted = frame.given("GROUP_MA") ? frame.texts("GROUP_MA").front() : "";
+  std::vector<const std::vector<Cell>*> found;
+  for (const auto& row : table.rows) {
+    const auto* name = place < 0 ? nullptr : std::get_if<std::string>(&row[static_cast<std::size_t>(place)]);
+    if (wanted.empty() || (name != nullptr && without_padding(*name) == wanted)) found.push_back(&row);
+  }
+  if (found.size() == 1) return *found.front();
+  throw DiagnosticError(
+      "wrong-count", fmt::format("CREA_MAILLAGE: {} rows of the table can be meant, and one is needed", found.size()),
+      frame.span_of("TABLE"), "name the section by GROUP_MA");
+}
+
+double section_value(const Keywords& frame, const Table& table, const std::vector<Cell>& row, const char* name) {
+  const int column = table.column(name);
+  const auto* value = column < 0 ? nullptr : std::get_if<double>(&row[static_cast<std::size_t>(column)]);
+  if (value != nullptr) return *value;
+  throw DiagnosticError("unknown-column", fmt::format("CREA_MAILLAGE: the table has no value {}", name),
+                        frame.span_of("TABLE"), "give the table that POST_ELEM, CARA_GEOM makes");
+}
+
+// The mesh of a section in axes through its centre, turned to the principal ones.
+void move_to_frame(const Keywords& frame, solver::Mesh& mesh) {
+  const Table& table = frame.data<TableConcept>("TABLE").table;
+  const auto& row = section_row(frame, table);
+  if (frame.given("NOM_ORIG"))
+    solver::translate(mesh,
+                      {-section_value(frame, table, row, "CDG_Y"), -section_value(frame, table, row, "CDG_Z"), 0});
+  if (frame.given("NOM_ROTA"))
+    solver::rotate(mesh, {}, {0.0, 0.0, 1.0}, -section_value(frame, table, row, "ALPHA") * degree);
+}
+
 }  // namespace
 
 Product crea_maillage(const Call& call, Context& context) {
@@ -85,6 +122,10 @@ Product crea_maillage(const Call& call, Context& context) {
   });
   each_occurrence(call, "DECOUPE_LAC", [&](const Keywords& one) { mesh = cut_slave_faces(one, mesh); });
   each_occurrence(call, "RESTREINT", [&](const Keywords& one) { mesh = restrict_to(one, mesh); });
+  each_occurrence(call, "REPERE", [&](const Keywords& one) { move_to_frame(one, mesh); });
+  each_occurrence(call, "RAFFINEMENT", [&](const Keywords& one) {
+    for (std::int64_t level = 0; level < one.integer("NIVEAU"); ++level) mesh = solver::refined(mesh);
+  });
   context.console.detail(fmt::format("  {} nodes, {} cells", mesh.node_count(), mesh.cell_count()));
   auto product = std::make_shared<MeshConcept>();
   product->mesh = std::make_shared<solver::Mesh>(std::move(mesh));

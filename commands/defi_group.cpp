@@ -13,8 +13,10 @@
 #include "commands/points.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/constraints/embedding.hpp"
 #include "solver/mesh/axes.hpp"
 #include "solver/mesh/groups.hpp"
+#include "solver/mesh/place.hpp"
 
 namespace comma::commands {
 
@@ -178,10 +180,30 @@ std::vector<int> nodes_in_interval(const Keywords& creation, const solver::Mesh&
   return nodes;
 }
 
+// INCLUSION: nodes in cells of another mesh, on their boundary but for rounding.
+std::vector<int> nodes_inside(const Keywords& creation, const solver::Mesh& mesh) {
+  constexpr double rounding = 1e-7;
+  const solver::Mesh& other = *creation.data<MeshConcept>("MAILLAGE_INCL").mesh;
+  const auto cells = selected_cells(creation, other, {"", "", "", "GROUP_MA_INCL", ""});
+  const auto nodes = selected_nodes(creation, mesh);
+  std::vector<Eigen::Vector3d> places;
+  Eigen::AlignedBox3d extent;
+  for (const int node : nodes) {
+    places.push_back(solver::place(mesh, node));
+    extent.extend(places.back());
+  }
+  const double farthest = std::max(creation.real("DISTANCE_MAX"), rounding * extent.diagonal().norm());
+  std::vector<int> inside;
+  for (const solver::Embedding& host : solver::embed_places(other, places, cells, farthest))
+    if (host.cell >= 0) inside.push_back(nodes[static_cast<std::size_t>(host.node)]);
+  return inside;
+}
+
 std::vector<int> nodes_of_option(const Keywords& creation, const solver::Mesh& mesh) {
   const std::string& option = creation.text("OPTION");
   if (option == "NOEUD_ORDO" || option == "SEGM_DROI_ORDO") return nodes_in_order(creation, mesh);
   if (option == "INTERVALLE_VALE") return nodes_in_interval(creation, mesh);
+  if (option == "INCLUSION") return nodes_inside(creation, mesh);
   const solver::Point at = centre(creation, mesh);
   const double tolerance = creation.real("PRECISION");
   if (option == "ENV_SPHERE") return solver::nodes_on_sphere(mesh, at, creation.real("RAYON"), tolerance);

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
@@ -39,10 +41,34 @@ void add_interval(const Keywords& interval, std::vector<std::int64_t>& values) {
   for (std::int64_t value = begin + step; value <= end; value += step) values.push_back(value);
 }
 
+// NUME_ORDRE: the storage numbers of the steps of a result whose parameter lies in an interval, ends included.
+std::vector<std::int64_t> stored_numbers(const Call& call) {
+  const std::string& name = call.text("PARAMETRE");
+  std::vector<std::int64_t> numbers;
+  for (const solver::ResultStep& step : call.data<ResultConcept>("RESULTAT").result.steps) {
+    const auto found = step.parameters.find(name);
+    if (name != "INST" && found == step.parameters.end()) continue;
+    const double value = name == "INST" ? step.instant : found->second;
+    const auto holds = [&](const Keywords& interval) {
+      const auto ends = interval.reals("VALE");
+      return value >= ends[0] && value <= ends[1];
+    };
+    if (std::ranges::any_of(call.factors("INTERVALLE"), holds)) numbers.push_back(step.order);
+  }
+  if (numbers.empty())
+    throw DiagnosticError("unknown-step", "DEFI_LIST_ENTI: no step of the result lies in the intervals", call.span,
+                          "look at PARAMETRE and INTERVALLE");
+  return numbers;
+}
+
 }  // namespace
 
 Product defi_list_enti(const Call& call, Context&) {
   auto product = std::make_shared<IntegerListConcept>();
+  if (call.text("OPERATION") == "NUME_ORDRE") {
+    product->values = stored_numbers(call);
+    return product;
+  }
   product->values = call.has("VALE") ? call.integers("VALE") : std::vector<std::int64_t>{call.integer("DEBUT")};
   for (const Keywords& interval : call.factors("INTERVALLE")) add_interval(interval, product->values);
   for (std::size_t i = 1; i < product->values.size(); ++i) {

@@ -142,6 +142,20 @@ std::vector<Extremum> wanted_extremes(const Keywords& print) {
   return wanted;
 }
 
+// TOUT_PARA, NOM_PARA: a line of the parameters of a step.
+std::string parameters_of(const Keywords& print, const PrintedPart& part, const solver::ResultStep& step) {
+  const bool all = print.has("TOUT_PARA") && print.text("TOUT_PARA") == "OUI";
+  if (!all && !print.given("NOM_PARA")) return {};
+  const auto names = print.texts("NOM_PARA");
+  std::string text = fmt::format("\n {}, NUME_ORDRE={}", part.name, step.order);
+  const auto add = [&](const std::string& name, double value) {
+    if (all || std::ranges::find(names, name) != names.end()) text += fmt::format(", {}={:.10g}", name, value);
+  };
+  add("INST", step.instant);
+  for (const auto& [name, value] : step.parameters) add(name, value);
+  return text + "\n";
+}
+
 std::string text_of(const Keywords& print) {
   const PrintedPart part = part_of(print, false);
   const ListingStyle style = style_of(print);
@@ -150,6 +164,7 @@ std::string text_of(const Keywords& print) {
   std::string text;
   for (const std::string& line : print.texts("SOUS_TITRE")) text += "\n " + line + "\n";
   for (const solver::ResultStep& step : part.result.steps) {
+    text += parameters_of(print, part, step);
     for (const auto& [name, field] : step.fields) {
       text += name.empty()
                   ? fmt::format("\n {}\n", part.name)

@@ -15,6 +15,7 @@
 #include "commands/model/angles.hpp"
 #include "commands/model/parts_of_model.hpp"
 #include "commands/selection.hpp"
+#include "commands/tables/section_table.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/discretisation.hpp"
 #include "solver/fields/energies.hpp"
@@ -452,6 +453,7 @@ Product post_elem(const Call& call, Context& context) {
   if (call.has("MINMAX")) list_extremes(table, call, context.diagnostics);
   if (call.has("TRAV_EXT")) list_work(table, call, context.diagnostics);
   if (call.has("AIRE_INTERNE")) list_areas(table, call);
+  if (call.has("CARA_GEOM")) list_sections(table, call);
   return product;
 }
 

@@ -8,10 +8,10 @@
 
 #include "commands/commands.hpp"
 #include "commands/fields/field_reading.hpp"
-#include "commands/model/angles.hpp"
 #include "commands/points.hpp"
 #include "commands/selection.hpp"
 #include "commands/tables/extreme_rows.hpp"
+#include "commands/tables/node_values.hpp"
 #include "commands/tables/reductions.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
@@ -26,89 +26,8 @@ namespace comma::commands {
 namespace {
 
 using interpreter::DiagnosticError;
-// The nodes of an action, and its values there in its frame.
-struct Reading {
-  Row head;  ///< the columns that say where the values come from
-  const solver::Mesh& mesh;
-  std::vector<int> nodes;
-  solver::NodalField field;
-};
 
-std::vector<double> abscissas(const Reading& reading) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < reading.nodes.size(); ++i) {
-    const double step =
-        i > 0 ? solver::distance(reading.mesh.nodes[reading.nodes[i - 1]], reading.mesh.nodes[reading.nodes[i]]) : 0.0;
-    values.push_back(i > 0 ? values.back() + step : 0.0);
-  }
-  return values;
-}
-
-Eigen::Vector3d vector_of(const Keywords& action, const char* keyword) {
-  return Eigen::Vector3d(point_of(action, keyword).data());
-}
-
-Eigen::Matrix3d axes_by_angles(const Keywords& action) {
-  const Eigen::Vector3d angles = vector_of(action, "ANGL_NAUT") * degree;
-  return solver::nautical_axes(angles[0], angles[1], angles[2]);
-}
-
-// Components that keep their direction have nothing to do in another frame.
-void check_frame(const Keywords& action, const std::vector<int>& nodes, const solver::NodalField& field) {
-  if (action.text("REPERE") == "GLOBAL" || action.has("INVARIANT") || action.has("ELEM_PRINCIPAUX")) return;
-  const char* keyword = action.has("RESULTANTE") ? "RESULTANTE" : "NOM_CMP";
-  for (const std::string& name : action.has(keyword) ? action.texts(keyword) : field.components) {
-    const int column = field.component(name);
-    if (column < 0 || !solver::has_own_axes(field, name)) continue;
-    if (std::ranges::all_of(nodes, [&](int node) { return std::isnan(field.at(node, column)); })) continue;
-    throw DiagnosticError("unsupported",
-                          fmt::format("POST_RELEVE_T: {} has axes of its own, which REPERE does not turn", name),
-                          action.span_of("REPERE"), "leave out REPERE, or name other components (NOM_CMP)");
-  }
-}
-
-// Axes that go round a line; nothing for other frames.
-std::optional<solver::NodeAxes> round_axes(const Keywords& action, const solver::Mesh& mesh) {
-  const std::string& frame = action.text("REPERE");
-  if (frame == "POLAIRE") return solver::polar_axes(mesh);
-  if (frame == "CYLINDRIQUE")
-    return solver::revolution_axes(mesh, vector_of(action, "ORIGINE"), vector_of(action, "AXE_Z"));
-  return std::nullopt;
-}
-
-solver::NodalField in_frame(const Keywords& action, const solver::Mesh& mesh, const std::vector<int>& nodes,
-                            const solver::NodalField& field) {
-  const std::string& frame = action.text("REPERE");
-  if (frame == "GLOBAL") return field;
-  if (frame == "UTILISATEUR") {
-    const Eigen::Matrix3d axes = axes_by_angles(action);
-    return solver::in_axes(field, nodes, [&](int) { return axes; });
-  }
-  if (frame == "LOCAL") {
-    const auto second = action.has("VECT_Y") ? std::optional(vector_of(action, "VECT_Y")) : std::nullopt;
-    return solver::in_axes(field, nodes, solver::line_axes(mesh, nodes, second));
-  }
-  return solver::in_axes(field, nodes, solver::with_axes_of_neighbours(mesh, nodes, *round_axes(action, mesh)));
-}
-
-// The values themselves, or what is made of the tensors.
-solver::NodalField wanted_quantities(const Keywords& action, solver::NodalField field) {
-  if (action.has("INVARIANT")) return solver::tensor_invariants(field);
-  if (action.has("ELEM_PRINCIPAUX")) return solver::principal_values(field);
-  return field;
-}
-
-solver::NodalField values_in_frame(const Keywords& action, const solver::Mesh& mesh, const std::vector<int>& nodes,
-                                   const solver::NodalField& field) {
-  try {
-    return wanted_quantities(action, in_frame(action, mesh, nodes, field));
-  } catch (const solver::Error& error) {
-    const char* keyword =
-        error.code() == "incompatible-field" ? (action.has("RESULTAT") ? "NOM_CHAM" : "CHAM_GD") : "REPERE";
-    throw DiagnosticError(error.code(), std::string("POST_RELEVE_T: ") + error.what(), action.span_of(keyword),
-                          error.code() == "missing-direction" ? "give VECT_Y" : error.hint());
-  }
-}
+constexpr const char* own_name = "POST_RELEVE_T";
 
 struct Place {
   std::vector<int> nodes, cells;
@@ -122,7 +41,7 @@ void require_place(const Keywords& action) {
 
 // Named nodes in the order of the file; cells beside them are those whose values count at a node. Cells alone give
 // their nodes.
-Place place_of(const Keywords& action, const solver::Mesh& mesh) {
+Place place_of_action(const Keywords& action, const solver::Mesh& mesh) {
   const bool by_nodes = names_a_place(action, node_places);
   auto nodes = selected_nodes(action, mesh, by_nodes ? node_places : PlaceKeywords());
   require_place(action);
@@ -137,7 +56,7 @@ Row head_of_action(const Keywords& action, const FieldSource& source) {
 
 // What comes of the order of the nodes: REPERE='LOCAL' tangents, OPERATION='MOYENNE' means along a line, and
 // 'EXTRACTION' places along one, where the nodes lie on it. Nothing: the order does not matter.
-std::string use_of_order(const Keywords& action, const Reading& reading) {
+std::string use_of_order(const Keywords& action, const NodeValues& reading) {
   if (action.has("RESULTANTE")) return {};
   if (action.text("REPERE") == "LOCAL") return "REPERE='LOCAL'";
   const auto operations = action.texts("OPERATION");
@@ -146,7 +65,7 @@ std::string use_of_order(const Keywords& action, const Reading& reading) {
   return does("EXTRACTION") && solver::lie_on_a_line(reading.mesh, reading.nodes) ? "ABSC_CURV" : "";
 }
 
-void warn_of_order(const Keywords& action, const Reading& reading, Context& context) {
+void warn_of_order(const Keywords& action, const NodeValues& reading, Context& context) {
   const std::string use = use_of_order(action, reading);
   if (use.empty()) return;
   const auto node = solver::node_out_of_order(reading.mesh, reading.nodes);
@@ -161,7 +80,7 @@ void warn_of_order(const Keywords& action, const Reading& reading, Context& cont
 }
 
 // Away from an axis there is no direction on it: nodes there take the axes of others.
-void warn_of_axis(const Keywords& action, const Reading& reading, Context& context) {
+void warn_of_axis(const Keywords& action, const NodeValues& reading, Context& context) {
   const auto axes = round_axes(action, reading.mesh);
   if (!axes || action.has("RESULTANTE")) return;
   const auto on_axis = std::ranges::find_if(reading.nodes, [&](int node) { return !solver::has_axes(*axes, node); });
@@ -173,65 +92,17 @@ void warn_of_axis(const Keywords& action, const Reading& reading, Context& conte
                             action.span_of("REPERE"), "leave it out, or look at its values in the axes of the mesh");
 }
 
-Reading read(const Keywords& action, const FieldSource& source) {
-  auto [nodes, cells] = place_of(action, source.mesh);
+Row label_of_node(const solver::Mesh& mesh, int node) { return {{"NOEUD", table_node(mesh, node)}}; }
+
+NodeValues read(const Keywords& action, const FieldSource& source) {
+  auto [nodes, cells] = place_of_action(action, source.mesh);
   solver::NodalField field = at_nodes(action, source, cells.empty() ? nullptr : &cells);
-  check_frame(action, nodes, field);
-  Row head = head_of_action(action, source);
+  check_frame(own_name, action, nodes, field);
+  NodeValues values{head_of_action(action, source), source.mesh, nodes, nodes, std::move(field), {}};
+  values.label = [&mesh = source.mesh, nodes](std::size_t entry) { return label_of_node(mesh, nodes[entry]); };
   // A resultant is turned as a whole.
-  if (!action.has("RESULTANTE")) field = values_in_frame(action, source.mesh, nodes, field);
-  return {std::move(head), source.mesh, std::move(nodes), std::move(field)};
-}
-
-std::vector<int> wanted_components(const Keywords& action, const solver::NodalField& field) {
-  return chosen_components(action, field.components);
-}
-
-// The place, the curvilinear abscissa along the list of nodes and the values (U4.81.21) where any of the components is
-// carried.
-template <class ValueOf>
-void add_values(Table& table, const Reading& reading, std::size_t i, double along, Row row,
-                const std::vector<std::string>& names, const std::vector<int>& components, ValueOf&& value_of) {
-  const solver::Point& at = reading.mesh.nodes[reading.nodes[i]];
-  row.insert(row.begin() + 1, {"NOEUD", table_node(reading.mesh, reading.nodes[i])});
-  row.insert(row.end(), {{"ABSC_CURV", along}, {"COOR_X", at[0]}, {"COOR_Y", at[1]}, {"COOR_Z", at[2]}});
-  bool carried = false;
-  for (const int component : components) {
-    const double value = value_of(component);
-    carried |= !std::isnan(value);
-    row.emplace_back(names[component], std::isnan(value) ? Cell() : Cell(value));
-  }
-  if (carried) table.add_row(row);
-}
-
-// One row a node.
-void extract(Table& table, const Keywords& action, const Reading& reading) {
-  const auto components = wanted_components(action, reading.field);
-  const auto along = abscissas(reading);
-  for (std::size_t i = 0; i < reading.nodes.size(); ++i) {
-    add_values(table, reading, i, along[i], reading.head, reading.field.components, components,
-               [&](int component) { return reading.field.at(reading.nodes[i], component); });
-  }
-}
-
-// What a node has from the cells around it is wanted as it is.
-const solver::ElementField& field_by_cells(const Keywords& action, const FieldSource& source) {
-  const auto* field = std::get_if<solver::ElementField>(&source.field);
-  if (field == nullptr || field->support != solver::Support::element_node) {
-    throw DiagnosticError("unsupported",
-                          "POST_RELEVE_T: MOYE_NOEUD='NON' is for fields at the nodes of cells (..._ELNO)",
-                          action.span_of("MOYE_NOEUD"), "leave out MOYE_NOEUD");
-  }
-  const bool plain = action.text("REPERE") == "GLOBAL" && !action.has("INVARIANT") && !action.has("ELEM_PRINCIPAUX") &&
-                     !action.has("RESULTANTE");
-  const auto operations = action.texts("OPERATION");
-  if (!plain || operations.size() != 1 || operations.front() != "EXTRACTION") {
-    throw DiagnosticError(
-        "unsupported",
-        "POST_RELEVE_T: with MOYE_NOEUD='NON' comma extracts components in the axes of the mesh, and nothing else",
-        action.span_of("MOYE_NOEUD"), "take the averages at nodes");
-  }
-  return *field;
+  if (!action.has("RESULTANTE")) take_wanted_values(own_name, action, nodes, values);
+  return values;
 }
 
 // For each node the cells around it that count (all without `cells`), and its number in each.
@@ -256,22 +127,41 @@ std::vector<Corners> corners_at(const solver::Mesh& mesh, const solver::ElementF
   return around;
 }
 
-// One row a node and cell around it.
-void extract_by_cells(Table& table, const Keywords& action, const FieldSource& source) {
-  const solver::ElementField& field = field_by_cells(action, source);
-  auto [nodes, cells] = place_of(action, source.mesh);
-  const Reading reading{head_of_action(action, source), source.mesh, std::move(nodes), {}};
-  const auto components = chosen_components(action, field.components);
-  const auto along = abscissas(reading);
-  const auto around = corners_at(source.mesh, field, cells, reading.nodes);
-  for (std::size_t i = 0; i < reading.nodes.size(); ++i) {
+// MOYE_NOEUD='NON': what a node has from the cells around it is extracted as it is.
+bool is_by_cells(const Keywords& action, const std::vector<std::string>& operations) {
+  return action.text("MOYE_NOEUD") == "NON" && !action.has("RESULTANTE") &&
+         std::ranges::find(operations, "EXTRACTION") != operations.end();
+}
+
+// One entry a node and cell around it.
+NodeValues read_by_cells(const Keywords& action, const FieldSource& source) {
+  const auto* field = std::get_if<solver::ElementField>(&source.field);
+  if (field == nullptr || field->support != solver::Support::element_node) {
+    throw DiagnosticError("unsupported",
+                          "POST_RELEVE_T: MOYE_NOEUD='NON' is for fields at the nodes of cells (..._ELNO)",
+                          action.span_of("MOYE_NOEUD"), "leave out MOYE_NOEUD");
+  }
+  const auto [nodes, cells] = place_of_action(action, source.mesh);
+  const auto around = corners_at(source.mesh, *field, cells, nodes);
+  NodeValues values{head_of_action(action, source), source.mesh, {}, {}, {field->quantity, field->components, {}}, {}};
+  std::vector<int> cell_of_entry;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (const auto& [cell, corner] : around[i]) {
-      Row row = reading.head;
-      row.insert(row.begin() + 1, {"MAILLE", table_cell(source.mesh, cell)});
-      add_values(table, reading, i, along[i], std::move(row), field.components, components,
-                 [&](int component) { return field.at(cell, corner, component); });
+      values.rows.push_back(static_cast<int>(values.nodes.size()));
+      values.nodes.push_back(nodes[i]);
+      cell_of_entry.push_back(cell);
+      for (std::size_t c = 0; c < field->components.size(); ++c)
+        values.field.values.push_back(field->at(cell, corner, static_cast<int>(c)));
     }
   }
+  values.label = [&mesh = source.mesh, at = values.nodes, cell_of_entry](std::size_t entry) {
+    Row label = label_of_node(mesh, at[entry]);
+    label.emplace_back("MAILLE", table_cell(mesh, cell_of_entry[entry]));
+    return label;
+  };
+  check_frame(own_name, action, values.rows, values.field);
+  take_wanted_values(own_name, action, nodes, values);
+  return values;
 }
 
 // The vector of forces that components belong to: DX, DY, DZ, or what else ends so (RX, RNX, FX ...).
@@ -295,7 +185,7 @@ std::array<std::string, 3> force_components(const Keywords& action, const solver
 }
 
 // The sum over the nodes; with MOMENT under the names of a torsor's parts.
-void sum(Table& table, const Keywords& action, const Reading& reading) {
+void sum(Table& table, const Keywords& action, const NodeValues& reading) {
   if (const std::string& frame = action.text("REPERE"); frame != "GLOBAL" && frame != "UTILISATEUR") {
     throw DiagnosticError("unsupported", "POST_RELEVE_T: a resultant has no axes that change from node to node",
                           action.span_of("REPERE"), "take it in REPERE='GLOBAL' or 'UTILISATEUR'");
@@ -305,7 +195,7 @@ void sum(Table& table, const Keywords& action, const Reading& reading) {
   Row row = reading.head;
   if (action.has("MOMENT")) {
     const solver::Resultant total =
-        solver::resultant(reading.mesh, reading.field, reading.nodes, vector_of(action, "POINT"),
+        solver::resultant(reading.mesh, reading.field, reading.nodes, Eigen::Vector3d(point_of(action, "POINT").data()),
                           force_components(action, reading.field));
     const Eigen::Vector3d force = axes * total.force, moment = axes * total.moment;
     for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("RESULT_{}", "XYZ"[i]), force[i]);
@@ -334,64 +224,17 @@ void sum(Table& table, const Keywords& action, const Reading& reading) {
   table.add_row(row);
 }
 
-// The values of a component at the nodes that carry it, and their abscissas.
-struct Profile {
-  std::vector<double> abscissas, values;
-  std::vector<int> nodes;
-};
-
-Profile profile(const Reading& reading, int component) {
-  Profile result;
-  const auto along = abscissas(reading);
-  for (std::size_t i = 0; i < reading.nodes.size(); ++i) {
-    const double value = reading.field.at(reading.nodes[i], component);
-    if (std::isnan(value)) continue;
-    result.abscissas.push_back(along[i]);
-    result.values.push_back(value);
-    result.nodes.push_back(reading.nodes[i]);
-  }
-  if (result.values.empty()) {
-    throw DiagnosticError("unknown-component",
-                          fmt::format("no node there carries {}", reading.field.components[component]));
-  }
-  return result;
-}
-
-// One row a quantity: the mean along the line, the slope, the extremes and the ends of the straight line of the same
-// mean and slope.
-void average(Table& table, const Keywords& action, const Reading& reading) {
-  const auto components = wanted_components(action, reading.field);
-  std::vector<solver::LineMean> means;
-  for (const int component : components) {
-    const Profile values = profile(reading, component);
-    means.push_back(solver::line_mean(values.abscissas, values.values));
-  }
-  const auto add = [&](const char* quantity, auto&& value_of) {
-    Row row = reading.head;
-    row.emplace_back("QUANTITE", quantity);
-    for (std::size_t i = 0; i < components.size(); ++i)
-      row.emplace_back(reading.field.components[components[i]], value_of(means[i]));
-    table.add_row(row);
-  };
-  add("MOMENT_0", [](const auto& mean) { return mean.mean; });
-  add("MOMENT_1", [](const auto& mean) { return mean.slope; });
-  add("MINIMUM", [](const auto& mean) { return mean.least; });
-  add("MAXIMUM", [](const auto& mean) { return mean.greatest; });
-  add("MOYE_INT", [](const auto& mean) { return mean.first(); });
-  add("MOYE_EXT", [](const auto& mean) { return mean.last(); });
-}
-
 void add_mean(Table& table, Row row, const std::string& component, const std::vector<double>& values) {
   row.insert(row.end(), {{"CMP", component}, {"MOYENNE", mean_of(values)}});
   table.add_row(row);
 }
 
-void average_of_nodes(Table& table, const Keywords& action, const Reading& reading) {
+void average_of_nodes(Table& table, const Keywords& action, const NodeValues& reading) {
   for (const int component : wanted_components(action, reading.field))
     add_mean(table, reading.head, reading.field.components[component], profile(reading, component).values);
 }
 
-void list_extremes(Table& table, const Keywords& action, const Reading& reading) {
+void list_extremes(Table& table, const Keywords& action, const NodeValues& reading) {
   const auto all = extremes_of(reading.field, wanted_components(action, reading.field), reading.nodes);
   add_extremes(table, reading.head, all, [&](const solver::Extreme& at) {
     return Row{{"NOEUD", table_node(reading.mesh, at.place)}};
@@ -463,26 +306,26 @@ void act(Table& table, const Keywords& action, Context& context) {
   bool first = true;
   const std::size_t before = table.rows.size();
   for (const FieldSource& source : field_sources(action)) {
-    if (action.text("MOYE_NOEUD") == "NON") {
-      extract_by_cells(table, action, source);
-      continue;
-    }
     std::vector<std::string> operations = action.texts("OPERATION");
+    if (is_by_cells(action, operations)) {
+      add_entries(table, action, read_by_cells(action, source));
+      std::erase(operations, "EXTRACTION");
+    }
     std::erase_if(operations, [&](const std::string& operation) {
       const bool of_cells = is_of_cells(action, source, operation);
       if (of_cells) add_of_cells(table, action, source, operation);
       return of_cells;
     });
     if (operations.empty()) continue;
-    const Reading reading = read(action, source);
+    const NodeValues reading = read(action, source);
     if (std::exchange(first, false)) {
       warn_of_order(action, reading, context);
       warn_of_axis(action, reading, context);
     }
     for (const std::string& operation : operations) {
       if (operation == "EXTRACTION" && action.has("RESULTANTE")) sum(table, action, reading);
-      if (operation == "EXTRACTION" && !action.has("RESULTANTE")) extract(table, action, reading);
-      if (operation == "MOYENNE") average(table, action, reading);
+      if (operation == "EXTRACTION" && !action.has("RESULTANTE")) add_entries(table, action, reading);
+      if (operation == "MOYENNE") add_line_means(table, action, reading);
       if (operation == "MOYENNE_ARITH") average_of_nodes(table, action, reading);
       if (operation == "EXTREMA") list_extremes(table, action, reading);
     }

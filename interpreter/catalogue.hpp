@@ -135,6 +135,7 @@ struct ProductPage {
   std::string when;  ///< empty: always
   std::shared_ptr<const Expression> condition;
   std::string type;
+  std::string like;  ///< the keyword whose concept says which of the types under `type` it is; empty: none
 };
 
 struct CommandPage {

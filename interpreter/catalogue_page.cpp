@@ -147,11 +147,12 @@ LevelPage level_from(const Packed& packed) {
 
 std::vector<ProductPage> products_from(const Packed& packed) {
   if (packed.is_null()) return {};
-  if (packed.is_text()) return {ProductPage{"", nullptr, std::string(packed.text())}};
+  if (packed.is_text()) return {ProductPage{"", nullptr, std::string(packed.text()), ""}};
   std::vector<ProductPage> products;
   for (const Packed& item : packed.list()) {
     const std::string when = text_at(item, "when");
-    products.push_back({when, when.empty() ? nullptr : condition_from(when), text_at(item, "type")});
+    products.push_back(
+        {when, when.empty() ? nullptr : condition_from(when), text_at(item, "type"), text_at(item, "like")});
   }
   return products;
 }

@@ -470,9 +470,19 @@ bool holds_unknown(const Keywords& keywords) {
   return std::ranges::any_of(keywords.items, [](const Keyword& keyword) { return holds_unknown(keyword); });
 }
 
-std::string product_type(const CommandPage& page, const Scope& scope) {
+/// The type of the concept that a keyword names, if it is of the kind that the product is.
+std::string type_like(const ProductPage& product, const Keywords& keywords, const Catalogue& catalogue) {
+  const auto named = std::ranges::find(keywords.items, product.like, &Keyword::name);
+  const bool fits = named != keywords.items.end() && named->value.is_concept() &&
+                    catalogue.is_a(named->value.as_concept()->type, product.type);
+  return fits ? named->value.as_concept()->type : product.type;
+}
+
+std::string product_type(const CommandPage& page, const Scope& scope, const Keywords& keywords,
+                         const Catalogue& catalogue) {
   for (const ProductPage& product : page.products)
-    if (product.condition == nullptr || holds(*product.condition, scope) == Truth::yes) return product.type;
+    if (product.condition == nullptr || holds(*product.condition, scope) == Truth::yes)
+      return product.like.empty() ? product.type : type_like(product, keywords, catalogue);
   return "";
 }
 
@@ -508,7 +518,7 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
   static_cast<Keywords&>(checked.call) = level.run(arguments, written.open);
   checked.call.span = written.span;
   checked.call.command = page.name;
-  checked.product_type = product_type(page, level.scope());
+  checked.product_type = product_type(page, level.scope(), checked.call, catalogue);
   const bool reused = reuse != written.arguments.end() && !reuse->value->is_none();
   check_reuse(written, page, reused ? &*reuse : nullptr, context, checked);
 

@@ -1,4 +1,4 @@
-// AFFE_CHAR_MECA/EVOL_CHAR: pressures and forces that a result holds in time.
+// AFFE_CHAR_MECA/EVOL_CHAR: pressures and forces that a result holds in time; AFFE_CHAR_CINE/EVOL_IMPO: displacements.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -124,10 +124,11 @@ struct Reading {
   /// there at the others.
   bool is_borne(solver::Coverage coverage, std::string_view field, const std::string& place) const {
     if (coverage != solver::Coverage::partial) return coverage == solver::Coverage::whole;
+    const char* keyword = call.has("EVOL_CHAR") ? "EVOL_CHAR" : "EVOL_IMPO";
     throw DiagnosticError(
         "incomplete-load",
-        fmt::format("EVOL_CHAR: {} has values on {} at some instants and none at others", field, place),
-        call.span_of("EVOL_CHAR"), "give them at all instants, 0 where nothing acts");
+        fmt::format("{}: {} has values on {} at some instants and none at others", keyword, field, place),
+        call.span_of(keyword), "give them at all instants, 0 where nothing acts");
   }
   bool is_borne(const solver::LoadHistory& history, std::string_view field, int cell) const {
     return is_borne(history.coverage(cell, target.mesh.cell(cell)), field, target.mesh.cell_name(cell));
@@ -209,6 +210,34 @@ void add_evolving_loads(const Keywords& call, const LoadedModel& target, solver:
   require_reached(pressure_field, add_pressures(reading, load));
   require_reached(nodal_field, add_forces_at_nodes(reading, load));
   for (const ForceField& kind : force_fields) require_reached(kind.name, add_distributed_forces(reading, kind, load));
+}
+
+void add_evolving_displacements(const Keywords& call, const LoadedModel& target, solver::Load& load) {
+  if (!call.has("EVOL_IMPO")) return;
+  const solver::Result& result = call.data<ResultConcept>("EVOL_IMPO").result;
+  if (&result.mesh() != &target.mesh)
+    throw DiagnosticError("incompatible-field", "EVOL_IMPO: the result lies on another mesh than the model",
+                          call.span_of("EVOL_IMPO"), "bring it there by PROJ_CHAMP");
+  std::vector<std::string> wanted = call.texts("NOM_CMP");
+  for (const std::string& name : wanted) component_named(call, "NOM_CMP", name);
+  const Reading reading{call, result, target};
+  const solver::Origin origin = origin_of(call, "EVOL_IMPO");
+  const std::size_t before = load.relations.size();
+  for (const NamedComponent& named : displacement_keywords) {
+    if (!wanted.empty() && std::ranges::find(wanted, named.keyword) == wanted.end()) continue;
+    const History history = history_of(result, "DEPL", named.keyword);
+    for (int node = 0; history && node < target.mesh.node_count(); ++node) {
+      if (target.dofs.dof(node, named.component) < 0) continue;
+      if (!reading.is_borne(history->coverage(node), "DEPL", target.mesh.node_name(node))) continue;
+      load.relations.push_back({{{node, named.component, 1.0}},
+                                0.0,
+                                [history, node](const solver::Point&, double time) { return history->at(node, time); },
+                                origin});
+    }
+  }
+  if (load.relations.size() == before)
+    throw DiagnosticError("unknown-field", "EVOL_IMPO: the result has no displacements at nodes of the model",
+                          call.span_of("EVOL_IMPO"));
 }
 
 }  // namespace comma::commands

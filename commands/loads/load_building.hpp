@@ -100,4 +100,7 @@ bool is_in_own_axes(const interpreter::Keywords& occurrence);
 /// EVOL_CHAR: pressures and forces that a result holds in time, linear between its instants.
 void add_evolving_loads(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
 
+/// EVOL_IMPO: the displacements of a result imposed on the nodes that have them, linear between its instants.
+void add_evolving_displacements(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
+
 }  // namespace comma::commands

@@ -8,6 +8,8 @@
 #include <optional>
 #include <set>
 
+#include "commands/analysis/result_reading.hpp"
+#include "commands/fields/field_types.hpp"
 #include "commands/functions/functions.hpp"
 #include "commands/loads/load_building.hpp"
 #include "commands/points.hpp"
@@ -333,6 +335,24 @@ void require_solids(const Keywords& keywords) {
   }
 }
 
+// The field of normals, by node.
+std::map<int, Eigen::Vector3d> normals_of_field(const Keywords& keywords, const LoadedModel& target) {
+  const FieldConcept& data = number_field(keywords.concept_of("CHAM_NORMALE"), keywords, "CHAM_NORMALE");
+  const auto* field = std::get_if<solver::NodalField>(&data.field);
+  if (field == nullptr || data.mesh.get() != &target.mesh)
+    throw DiagnosticError("incompatible-field", "LIAISON_MAIL: CHAM_NORMALE is no field at nodes of this mesh",
+                          keywords.span_of("CHAM_NORMALE"), "make it by CREA_CHAMP, OPERATION='NORMALE'");
+  const std::array<int, 3> columns = {component_of(keywords, field->components, "X", "CHAM_NORMALE"),
+                                      component_of(keywords, field->components, "Y", "CHAM_NORMALE"),
+                                      component_of(keywords, field->components, "Z", "CHAM_NORMALE")};
+  std::map<int, Eigen::Vector3d> normals;
+  for (int node = 0; node < target.mesh.node_count(); ++node) {
+    const Eigen::Vector3d normal(field->at(node, columns[0]), field->at(node, columns[1]), field->at(node, columns[2]));
+    if (normal.allFinite()) normals.emplace(node, normal);
+  }
+  return normals;
+}
+
 Relations glued_nodes(const Keywords& keywords, const LoadedModel& target, const std::set<int>& glued,
                       const solver::Origin& origin) {
   const auto hosts =
@@ -345,6 +365,9 @@ Relations glued_nodes(const Keywords& keywords, const LoadedModel& target, const
   const bool is_moved = keywords.given("TRAN") || keywords.given("ANGL_NAUT");
   if (keywords.text("TYPE_RACCORD") != "MASSIF") {
     require_solids(keywords);
+    if (keywords.text("TYPE_RACCORD") == "COQUE_MASSIF")
+      return solver::fibre_relations(target.mesh, target.dofs, nodes, hosts, normals_of_field(keywords, target),
+                                     keywords.real("EPAIS"), farthest, origin);
     const auto relations_to =
         keywords.text("TYPE_RACCORD") == "COQUE" ? solver::shell_joint_relations : solver::shell_embedding_relations;
     return relations_to(target.mesh, target.dofs, solver::embed(target.mesh, nodes, hosts, farthest), origin);

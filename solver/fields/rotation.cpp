@@ -116,6 +116,22 @@ NodalField in_axes(const NodalField& field, std::span<const int> nodes, const No
   return result;
 }
 
+NodalField with_shear_of_plane(const NodalField& turned) {
+  std::vector<int> kept;
+  NodalField result{turned.quantity, {}, {}};
+  for (std::size_t c = 0; c < turned.components.size(); ++c) {
+    const std::string& name = turned.components[c];
+    const bool is_shear = name.ends_with("XY") || name.ends_with("XZ") || name.ends_with("YZ");
+    if (is_shear && name.size() == 4 && !name.ends_with("XZ")) continue;
+    kept.push_back(static_cast<int>(c));
+    result.components.push_back(is_shear && name.size() == 4 ? name.substr(0, 2) + "XY" : name);
+  }
+  const std::size_t rows = turned.values.size() / std::max<std::size_t>(turned.components.size(), 1);
+  for (std::size_t row = 0; row < rows; ++row)
+    for (const int c : kept) result.values.push_back(turned.at(static_cast<int>(row), c));
+  return result;
+}
+
 NodeAxes revolution_axes(const Mesh& mesh, const Eigen::Vector3d& origin, const Eigen::Vector3d& axis) {
   if (!(axis.norm() > 0.0)) throw Error("zero-vector", "the axis of revolution has no length");
   const Eigen::Vector3d along = axis.normalized();
@@ -206,21 +222,49 @@ Eigen::Vector3d across(const Mesh& mesh, const Eigen::Vector3d& tangent, const s
 
 }  // namespace
 
-NodeAxes line_axes(const Mesh& mesh, std::span<const int> nodes, const std::optional<Eigen::Vector3d>& y) {
+namespace {
+
+/// Axes from tangents, one a node; where a tangent vanishes (the line turns back) it is that of the segment before.
+NodeAxes axes_along(const Mesh& mesh, std::span<const int> nodes, std::span<const Eigen::Vector3d> tangents,
+                    const std::optional<Eigen::Vector3d>& y) {
   const auto directions = segment_directions(mesh, nodes);
   std::map<int, Eigen::Matrix3d> axes_of;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Eigen::Vector3d& before = directions[i == 0 ? 0 : i - 1];
-    const Eigen::Vector3d& after = directions[std::min(i, directions.size() - 1)];
-    const Eigen::Vector3d sum = before + after;
-    const Eigen::Vector3d tangent = sum.isZero(0.0) ? before : Eigen::Vector3d(sum.normalized());
     Eigen::Matrix3d axes;
-    axes.row(0) = tangent;
-    axes.row(1) = across(mesh, tangent, y);
+    axes.row(0) = tangents[i].isZero(0.0) ? directions[i == 0 ? 0 : i - 1] : Eigen::Vector3d(tangents[i].normalized());
+    axes.row(1) = across(mesh, axes.row(0), y);
     axes.row(2) = axes.row(0).cross(axes.row(1));
     axes_of.emplace(nodes[i], axes);
   }
   return [axes_of = std::move(axes_of)](int node) { return axes_of.at(node); };
+}
+
+}  // namespace
+
+NodeAxes line_axes(const Mesh& mesh, std::span<const int> nodes, const std::optional<Eigen::Vector3d>& y) {
+  const auto directions = segment_directions(mesh, nodes);
+  std::vector<Eigen::Vector3d> tangents;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    tangents.push_back(directions[i == 0 ? 0 : i - 1] + directions[std::min(i, directions.size() - 1)]);
+  return axes_along(mesh, nodes, tangents, y);
+}
+
+NodeAxes chord_axes(const Mesh& mesh, std::span<const int> nodes, const std::optional<Eigen::Vector3d>& y) {
+  std::vector<Eigen::Vector3d> tangents;
+  const auto at = [&](std::size_t i) { return Eigen::Vector3d(mesh.nodes[nodes[i]].data()); };
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    tangents.push_back(at(std::min(i + 1, nodes.size() - 1)) - at(i == 0 ? 0 : i - 1));
+  return axes_along(mesh, nodes, tangents, y);
+}
+
+std::function<Eigen::Vector3d(int)> line_normals(const Mesh& mesh, std::span<const int> nodes,
+                                                 const std::optional<Eigen::Vector3d>& y) {
+  std::vector<Eigen::Vector3d> normals;
+  for (const Eigen::Vector3d& tangent : segment_directions(mesh, nodes)) normals.push_back(across(mesh, tangent, y));
+  std::map<int, Eigen::Vector3d> normal_of;
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    normal_of.emplace(nodes[i], 0.5 * (normals[i == 0 ? 0 : i - 1] + normals[std::min(i, normals.size() - 1)]));
+  return [normal_of = std::move(normal_of)](int node) { return normal_of.at(node); };
 }
 
 Resultant resultant(const Mesh& mesh, const NodalField& forces, std::span<const int> nodes,

@@ -42,11 +42,23 @@ bool has_axes(const NodeAxes& axes, int node);
 /// there. Throws what `axes` throws where none has.
 NodeAxes with_axes_of_neighbours(const Mesh& mesh, std::span<const int> nodes, NodeAxes axes);
 
+/// Of a body in the plane, turned into axes that go round a line across it (revolution_axes): the one shear that there
+/// is, of the first and the third axis, stands in SIXY (EPXY), as in Code_Aster 17.3; those that vanish are taken away.
+NodalField with_shear_of_plane(const NodalField& turned);
+
 /// The axes along the broken line through `nodes`: first its tangent, at inner nodes the mean direction of the two
 /// segments there; second the part of `y` across it, without `y` (in a plane mesh) the tangent turned by 90 degrees;
 /// third their cross product. Throws Error `zero-vector` for a line of one node, for two neighbours at one place, and
 /// where `y` lies along the line; `missing-direction` for a mesh in space without `y`.
 NodeAxes line_axes(const Mesh& mesh, std::span<const int> nodes, const std::optional<Eigen::Vector3d>& y);
+
+/// The same with the tangent at inner nodes along the chord between their neighbours (MACR_LIGN_COUPE).
+NodeAxes chord_axes(const Mesh& mesh, std::span<const int> nodes, const std::optional<Eigen::Vector3d>& y);
+
+/// The mean of the second axes of the segments that meet at a node of the line, each with the segment's own tangent: a
+/// traction on it is the mean of those on both segments. Shorter than 1 where the line bends. Throws as line_axes.
+std::function<Eigen::Vector3d(int node)> line_normals(const Mesh& mesh, std::span<const int> nodes,
+                                                      const std::optional<Eigen::Vector3d>& y);
 
 /// The sums of forces and moments over nodes.
 struct Resultant {

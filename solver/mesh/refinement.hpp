@@ -1,0 +1,14 @@
+// Cutting all cells into smaller ones of their kind (CREA_MAILLAGE, RAFFINEMENT; U4.23.02).
+#pragma once
+
+#include "solver/mesh/mesh.hpp"
+
+namespace comma::solver {
+
+/// Lines into halves, triangles and quadrangles into four, solids into eight, with new nodes in the middle of edges,
+/// quadrangular faces and hexahedra; a tetrahedron is cut inside along the line from the middle of its third edge to
+/// that of its fifth. Pieces stand in the place of their cell and in its groups; groups of nodes stay. Throws Error
+/// `unsupported` naming a cell that is a pyramid or has more nodes than corners.
+Mesh refined(const Mesh& mesh);
+
+}  // namespace comma::solver
