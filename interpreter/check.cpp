@@ -13,40 +13,10 @@
 #include "interpreter/check_value.hpp"
 #include "interpreter/dict.hpp"
 #include "interpreter/former_names.hpp"
+#include "interpreter/keyword_scope.hpp"
 
 namespace comma::interpreter {
 namespace {
-
-/// The keywords that conditions see: those of the level, then those of the levels around it. An absent one is None.
-struct Scope {
-  const Scope* outer = nullptr;
-  std::map<std::string, Value, std::less<>> values;
-  bool open = false;  ///< there are further keywords that are not known
-
-  bool any_open() const { return open || (outer != nullptr && outer->any_open()); }
-  std::optional<Value> lookup(std::string_view name) const {
-    for (const Scope* scope = this; scope != nullptr; scope = scope->outer)
-      if (const auto found = scope->values.find(name); found != scope->values.end()) return found->second;
-    return std::nullopt;
-  }
-};
-
-enum class Truth { no, yes, unknown };
-
-Truth holds(const Expression& condition, const Scope& scope) {
-  const auto lookup = [&](std::string_view name) -> std::optional<Value> {
-    if (auto value = scope.lookup(name)) return value;
-    const bool keyword = std::ranges::find(condition.variables(), name) != condition.variables().end();
-    if (!keyword) return std::nullopt;
-    return scope.any_open() ? Value::unknown() : Value();
-  };
-  try {
-    if (condition.evaluate(lookup).is_unknown()) return Truth::unknown;
-    return condition.holds(lookup) ? Truth::yes : Truth::no;
-  } catch (const DiagnosticError&) {
-    return Truth::unknown;  // it compares a value of a wrong type, which is reported where it stands
-  }
-}
 
 /// Calls `visit(keyword, conditions)` for each keyword of a level and of its blocks, whatever their conditions.
 template <class Visit>
@@ -97,7 +67,7 @@ std::optional<std::vector<Occurrence>> occurrences_of(const Value& value, const 
 /// Checks one level: the keywords of a call, or of one occurrence of a factor.
 class LevelCheck {
  public:
-  LevelCheck(const LevelPage& level, std::string label, Span span, const Scope* outer, CheckContext& context)
+  LevelCheck(const LevelPage& level, std::string label, Span span, const KeywordScope* outer, CheckContext& context)
       : level_(level), label_(std::move(label)), span_(std::move(span)), context_(context) {
     scope_.outer = outer;
     result_.span = span_;
@@ -118,7 +88,7 @@ class LevelCheck {
     return std::move(result_);
   }
 
-  const Scope& scope() const { return scope_; }
+  const KeywordScope& scope() const { return scope_; }
   /// Conditions see reuse= as a keyword.
   void note_reuse(bool reused) { scope_.values["reuse"] = reused ? Value(true) : Value(); }
 
@@ -198,14 +168,14 @@ class LevelCheck {
   /// The one compulsory keyword, of the level or of a block that stands as long as nothing else is given, that is not
   /// there; empty when there is none, or more.
   std::string only_missing() const {
-    Scope given = scope_;
+    KeywordScope given = scope_;
     for (const Pending& pending : pending_) given.values[pending.name] = seen_by_conditions(*pending.argument->value);
     std::vector<std::string> names;
     add_missing(level_, given, names);
     return names.size() == 1 ? names.front() : "";
   }
 
-  void add_missing(const LevelPage& level, const Scope& given, std::vector<std::string>& names) const {
+  void add_missing(const LevelPage& level, const KeywordScope& given, std::vector<std::string>& names) const {
     for (const KeywordPage& keyword : level.keywords)
       if (keyword.required && !is_given(keyword.name) && !guessed(keyword.name)) names.push_back(keyword.name);
     for (const BlockPage& block : level.blocks)
@@ -449,7 +419,7 @@ class LevelCheck {
   std::string label_;
   Span span_;
   CheckContext& context_;
-  Scope scope_;
+  KeywordScope scope_;
   std::vector<Pending> pending_;
   std::vector<GivenKeyword> given_;
   std::set<std::string, std::less<>> defined_;
@@ -478,7 +448,7 @@ std::string type_like(const ProductPage& product, const Keywords& keywords, cons
   return fits ? named->value.as_concept()->type : product.type;
 }
 
-std::string product_type(const CommandPage& page, const Scope& scope, const Keywords& keywords,
+std::string product_type(const CommandPage& page, const KeywordScope& scope, const Keywords& keywords,
                          const Catalogue& catalogue) {
   for (const ProductPage& product : page.products)
     if (product.condition == nullptr || holds(*product.condition, scope) == Truth::yes)
