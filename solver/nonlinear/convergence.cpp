@@ -15,8 +15,8 @@ double excess_over(double limit, double value) { return value / std::max(limit, 
 
 double load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal,
                  const Eigen::VectorXd& variable_forces) {
-  const double size = std::max(largest_component(loads), largest_component(loads - internal));
-  return variable_forces.size() ? std::max(size, largest_component(internal + variable_forces)) : size;
+  const Eigen::VectorXd borne = loads.cwiseAbs().cwiseMax((loads - internal).cwiseAbs());
+  return largest_component(variable_forces.size() ? Eigen::VectorXd(borne + variable_forces.cwiseAbs()) : borne);
 }
 
 void RowWeights::take(const Assembler& assembler, const Elimination& elimination) {

@@ -11,9 +11,9 @@
 
 namespace comma::solver {
 
-/// What a residual is measured against: the largest of the loads, of what they leave to supports and contact, and of
-/// these and the forces of the command variables together, which the internal ones balance (R5.03.01).
-/// `variable_forces`: as Assembler::variable_forces() gives them.
+/// What a residual is measured against: the largest of the loads and of what they leave to supports and contact, the
+/// size of the force of the command variables at the same unknown added (R5.03.01; 17.3 adds sizes, whatever the
+/// signs). `variable_forces`: as Assembler::variable_forces() gives them.
 double load_size(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal, const Eigen::VectorXd& variable_forces);
 
 /// Measures residuals beside forces where some rows are none: see Assembler::residual_weights().

@@ -66,9 +66,7 @@ Eigen::VectorXd NewtonSolver::held_imbalance() const {
 double NewtonSolver::load_with_reactions(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal) const {
   Eigen::VectorXd borne = reactions_;
   for (const int dof : eliminated_) borne[dof] = internal[dof] - loads[dof];
-  return weights_.load_size(
-      loads, loads + borne,
-      variable_forces_.size() ? Eigen::VectorXd(variable_forces_ + internal - loads - borne) : variable_forces_);
+  return weights_.load_size(loads, loads + borne, variable_forces_);
 }
 
 ConvergenceCriterion::Measure NewtonSolver::distance(const NewtonState& state) const {

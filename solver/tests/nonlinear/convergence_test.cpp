@@ -8,6 +8,13 @@
 
 using namespace comma::solver;
 
+TEST_CASE("loads and reactions count with the size of what command variables push with, whatever the signs") {
+  const Eigen::Vector3d loads(3.0, 0.0, 0.0), internal(3.0, -2.0, 0.0);
+  CHECK(load_size(loads, internal, {}) == 3.0);
+  CHECK(load_size(loads, internal, Eigen::Vector3d(-1.0, 1.0, 3.5)) == 4.0);
+  CHECK(load_size(loads, internal, Eigen::Vector3d(1.0, -5.0, 3.5)) == 7.0);  // the reaction is 2
+}
+
 TEST_CASE("By default a millionth of the load is asked") {
   const ConvergenceCriterion criterion(NewtonOptions{});
   CHECK(criterion.measure(0.9e-3, 1000.0, false).converged);
