@@ -185,10 +185,11 @@ Field FieldComputation::energy_of_state(std::size_t step) {
   Field energies = whole_field("ETOT_ELEM", step);
   if (!some_flow()) return energies;
   const Field flow = hardening_energy_density(input(), whole_field("VARI_ELGA", step), *problem_.behaviours);
+  const ElementField& stresses = stresses_beside_plates(step);
   std::vector<int> cells;
   for (int cell = 0; cell < problem_.model->mesh->cell_count(); ++cell)
-    if (std::get<ElementField>(flow).points(cell) > 0) cells.push_back(cell);
-  Field densities = on_cells(whole_field("ENEL_ELGA", step), cells);
+    if (std::get<ElementField>(flow).points(cell) > 0 && !is_stabilised(stresses, cell)) cells.push_back(cell);
+  Field densities = on_cells(elastic_energy_density(input(), stresses), cells);
   put_piece(densities, {&flow, {}, {}, 1.0, true});
   const Field of_state = integrate_cells(*problem_.model, std::get<ElementField>(densities));
   put_piece(energies, {&of_state, {}, {}, 1.0, false});

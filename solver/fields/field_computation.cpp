@@ -46,10 +46,10 @@ std::vector<int> skin_cells(const Model& model) {
 // What plates have: forces and strains in their own axes, stresses and strains in layers (of which one may be taken to
 // the nodes), energies, forces on nodes.
 constexpr std::array plate_fields = {
-    "EFGE_ELGA"sv, "EFGE_ELNO"sv, "EFGE_NOEU"sv, "DEGE_ELGA"sv, "DEGE_ELNO"sv, "DEGE_NOEU"sv, "SIEF_ELGA"sv,
-    "SIEF_ELNO"sv, "SIEF_NOEU"sv, "SIGM_ELGA"sv, "SIGM_ELNO"sv, "SIGM_NOEU"sv, "SIEQ_ELGA"sv, "SIEQ_ELNO"sv,
-    "SIEQ_NOEU"sv, "EPSI_ELGA"sv, "EPSI_ELNO"sv, "EPSI_NOEU"sv, "EPEQ_ELGA"sv, "EPEQ_ELNO"sv, "EPEQ_NOEU"sv,
-    "ETOT_ELEM"sv, "EPOT_ELEM"sv, "ENEL_ELEM"sv, "FORC_NODA"sv, "REAC_NODA"sv};
+    "EFGE_ELGA"sv,   "EFGE_ELNO"sv, "EFGE_NOEU"sv, "DEGE_ELGA"sv, "DEGE_ELNO"sv, "DEGE_NOEU"sv, "SIEF_ELGA"sv,
+    "SIEF_ELNO"sv,   "SIEF_NOEU"sv, "SIGM_ELGA"sv, "SIGM_ELNO"sv, "SIGM_NOEU"sv, "SIEQ_ELGA"sv, "SIEQ_ELNO"sv,
+    "SIEQ_NOEU"sv,   "EPSI_ELGA"sv, "EPSI_ELNO"sv, "EPSI_NOEU"sv, "EPEQ_ELGA"sv, "EPEQ_ELNO"sv, "EPEQ_NOEU"sv,
+    "ENER_TOTALE"sv, "ETOT_ELEM"sv, "EPOT_ELEM"sv, "ENEL_ELEM"sv, "FORC_NODA"sv, "REAC_NODA"sv};
 
 std::vector<int> all_cells(const Model& model) {
   std::vector<int> cells(static_cast<std::size_t>(model.mesh->cell_count()));
