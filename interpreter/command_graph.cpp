@@ -138,6 +138,12 @@ bool CommandGraph::is_spoiled(const Concept& handle) const {
   return found != histories_.end() && found->second.is_spoiled;
 }
 
+bool CommandGraph::is_made(const Concept& handle) const {
+  const auto found = histories_.find(handle.id);
+  if (found == histories_.end() || found->second.writer < 0) return true;
+  return nodes_[static_cast<std::size_t>(found->second.writer)].complete;
+}
+
 /// From the first change on, whoever reads something made from the concept counts among its readers.
 void CommandGraph::note_change(const Concept& changed) {
   History& own = histories_[changed.id];

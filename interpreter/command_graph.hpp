@@ -67,6 +67,8 @@ class CommandGraph {
   void spoil(const Concept& changed);
   /// Whether such a call was to change it.
   bool is_spoiled(const Concept& handle) const;
+  /// Whether the call that has made or changed the concept last is complete; true of one that no call has made.
+  bool is_made(const Concept& handle) const;
 
   std::vector<CommandNode>& nodes() { return nodes_; }
   const std::vector<CommandNode>& nodes() const { return nodes_; }

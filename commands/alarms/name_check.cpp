@@ -22,7 +22,7 @@ namespace {
 /// The levels that may stand at one place of a call: a factor's keywords can depend on conditions.
 using Levels = std::vector<const LevelPage*>;
 
-/// The concepts around a keyword: those of its factor, then those of the call.
+/// The concepts around a keyword: those of its factor, then those of the call. Null stands for one that is not known.
 using Reach = std::vector<const Concept*>;
 
 void collect_pages(const LevelPage& level, std::string_view name, std::vector<const KeywordPage*>& found) {
@@ -38,16 +38,24 @@ std::vector<const KeywordPage*> pages_of(const Levels& levels, std::string_view 
   return found;
 }
 
-void collect_concepts(const Value& value, Reach& reach) {
+bool takes_concepts(const std::vector<const KeywordPage*>& pages) {
+  const auto is_concept = [](const TypePage& type) { return type.kind == Kind::concept_kind; };
+  return std::ranges::any_of(pages,
+                             [&](const KeywordPage* page) { return std::ranges::any_of(page->types, is_concept); });
+}
+
+void collect_concepts(const Value& value, const std::vector<const KeywordPage*>& pages, Reach& reach) {
   if (value.is_concept()) reach.push_back(value.as_concept().get());
+  if (value.is_unknown() && takes_concepts(pages)) reach.push_back(nullptr);
   if (!value.is_sequence()) return;
-  for (const Value& item : value.items()) collect_concepts(item, reach);
+  for (const Value& item : value.items()) collect_concepts(item, pages, reach);
 }
 
 /// Everything that reading these concepts reads.
 std::set<const Concept*> closure_of(const Reach& reach) {
   std::set<const Concept*> closure;
-  std::vector<const Concept*> open(reach.begin(), reach.end());
+  std::vector<const Concept*> open;
+  std::ranges::copy_if(reach, std::back_inserter(open), [](const Concept* handle) { return handle != nullptr; });
   while (!open.empty()) {
     const Concept* handle = open.back();
     open.pop_back();
@@ -143,7 +151,8 @@ class NameCheck {
   void check_level(const Keywords& keywords, const Levels& levels, const Reach& outer, const std::string& label,
                    const std::vector<std::string>& outer_fields) {
     Reach reach = outer;
-    for (const Keyword& keyword : keywords.items) collect_concepts(keyword.value, reach);
+    for (const Keyword& keyword : keywords.items)
+      collect_concepts(keyword.value, pages_of(levels, keyword.name), reach);
     const std::vector<std::string> fields =
         keywords.given("NOM_CHAM") ? texts_of(keywords.at("NOM_CHAM").value) : outer_fields;
     for (const Keyword& keyword : keywords.items) {
@@ -299,12 +308,19 @@ class NameCheck {
 
   bool reads_a(const Reach& reach, std::initializer_list<std::string_view> types) const {
     return std::ranges::any_of(
-        reach, [&](const Concept* handle) { return std::ranges::find(types, handle->type) != types.end(); });
+        reach, [&](const Concept* handle) { return handle && std::ranges::find(types, handle->type) != types.end(); });
+  }
+
+  /// Whether all concepts are there, and what made those behind them names no other that is not.
+  bool is_known(const Reach& reach) const {
+    if (std::ranges::find(reach, nullptr) != reach.end()) return false;
+    return std::ranges::all_of(closure_of(reach), [&](const Concept* handle) { return graph_.is_made(*handle); });
   }
 
   /// The meshes behind the concepts; none when one of them is not known for certain at this point of the file.
   std::vector<const solver::Mesh*> meshes_of(const Reach& reach) const {
     std::vector<const solver::Mesh*> meshes;
+    if (!is_known(reach)) return meshes;
     for (const Concept* handle : closure_of(reach)) {
       if (handle->type != "maillage_sdaster") continue;
       const auto* data = dynamic_cast<const MeshConcept*>(handle->data.get());
@@ -316,6 +332,7 @@ class NameCheck {
 
   std::vector<const solver::Model*> models_of(const Reach& reach) const {
     std::vector<const solver::Model*> models;
+    if (!is_known(reach)) return models;
     for (const Concept* handle : closure_of(reach)) {
       if (handle->type != "modele_sdaster") continue;
       const auto* data = dynamic_cast<const ModelConcept*>(handle->data.get());
