@@ -448,11 +448,14 @@ std::string type_like(const ProductPage& product, const Keywords& keywords, cons
   return fits ? named->value.as_concept()->type : product.type;
 }
 
-std::string product_type(const CommandPage& page, const KeywordScope& scope, const Keywords& keywords,
-                         const Catalogue& catalogue) {
-  for (const ProductPage& product : page.products)
-    if (product.condition == nullptr || holds(*product.condition, scope) == Truth::yes)
-      return product.like.empty() ? product.type : type_like(product, keywords, catalogue);
+/// Nothing where it depends on a value that is not known.
+std::optional<std::string> product_type(const CommandPage& page, const KeywordScope& scope, const Keywords& keywords,
+                                        const Catalogue& catalogue) {
+  for (const ProductPage& product : page.products) {
+    const Truth fits = product.condition == nullptr ? Truth::yes : holds(*product.condition, scope);
+    if (fits == Truth::unknown) return std::nullopt;
+    if (fits == Truth::yes) return product.like.empty() ? product.type : type_like(product, keywords, catalogue);
+  }
   return "";
 }
 
@@ -488,7 +491,9 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
   static_cast<Keywords&>(checked.call) = level.run(arguments, written.open);
   checked.call.span = written.span;
   checked.call.command = page.name;
-  checked.product_type = product_type(page, level.scope(), checked.call, catalogue);
+  const auto type = product_type(page, level.scope(), checked.call, catalogue);
+  checked.product_type = type.value_or("");
+  checked.product_is_open = !type;
   const bool reused = reuse != written.arguments.end() && !reuse->value->is_none();
   check_reuse(written, page, reused ? &*reuse : nullptr, context, checked);
 

@@ -13,11 +13,12 @@
 namespace comma::interpreter {
 
 struct CheckedCall {
-  Call call;                 ///< call.result is the reused concept, or null: the session makes the new one
-  std::string product_type;  ///< type of the concept that it gives, or empty
-  bool sound = true;         ///< no error was reported
-  bool complete = true;      ///< it may run: no value is unknown and comma supports everything in it
-  bool left_out = false;     ///< it only writes, and asks for something that comma does not support
+  Call call;                     ///< call.result is the reused concept, or null: the session makes the new one
+  std::string product_type;      ///< type of the concept that it gives, or empty
+  bool product_is_open = false;  ///< which type it gives depends on a value that is not known
+  bool sound = true;             ///< no error was reported
+  bool complete = true;          ///< it may run: no value is unknown and comma supports everything in it
+  bool left_out = false;         ///< it only writes, and asks for something that comma does not support
 };
 
 /// Codes: unknown-keyword, duplicate-keyword, missing-keyword, wrong-type, wrong-concept-type, wrong-count,

@@ -85,6 +85,7 @@ Value Session::call(const CommandCall& written, bool eager) {
       throw;
     }
   }
+  if (!product && checked.product_is_open) return Value::unknown();
   return product ? Value(product) : worth;
 }
 
