@@ -20,14 +20,14 @@ using interpreter::DiagnosticError;
 
 // Angles in radians; those left out are 0.
 Eigen::Vector3d angles_of(const Keywords& frame, const std::string& keyword) {
-  return Eigen::Vector3d(point_of(frame, keyword).data()) * degree;
+  return vector_of(frame, keyword) * degree;
 }
 
 // ORIG_AXE: round an axis through a point; alone, in the plane, the axis is Z.
 Eigen::Matrix3d axes_round(const Keywords& frame, const solver::Model& model, int cell) {
   const Eigen::Vector3d along_z(0.0, -90.0 * degree, 0.0);
   const Eigen::Vector3d angles = frame.has("ANGL_AXE") ? angles_of(frame, "ANGL_AXE") : along_z;
-  const Eigen::Vector3d origin(point_of(frame, "ORIG_AXE").data());
+  const Eigen::Vector3d origin = vector_of(frame, "ORIG_AXE");
   const Eigen::Matrix3d axes =
       solver::cylindrical_axes(angles[0], angles[1], origin, solver::centre_of(*model.mesh, cell));
   return solver::material_axes_round(

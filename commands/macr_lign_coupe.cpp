@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <optional>
 
 #include "commands/commands.hpp"
 #include "commands/fields/field_reading.hpp"
+#include "commands/model/angles.hpp"
 #include "commands/points.hpp"
 #include "commands/selection.hpp"
 #include "commands/tables/node_values.hpp"
@@ -38,13 +38,9 @@ struct CutLine {
   std::string title;
 };
 
-Eigen::Vector3d place_in(const Keywords& line, const char* keyword) {
-  return Eigen::Vector3d(point_of(line, keyword).data());
-}
-
 CutLine segment_of(const Keywords& line) {
   CutLine cut;
-  const Eigen::Vector3d first = place_in(line, "COOR_ORIG"), last = place_in(line, "COOR_EXTR");
+  const Eigen::Vector3d first = vector_of(line, "COOR_ORIG"), last = vector_of(line, "COOR_EXTR");
   const auto count = static_cast<int>(line.integer("NB_POINTS"));
   if (first == last)
     throw DiagnosticError("zero-vector", "MACR_LIGN_COUPE: the segment has no length", line.span_of("COOR_EXTR"));
@@ -55,7 +51,7 @@ CutLine segment_of(const Keywords& line) {
 
 // The axis of an arc: across the plane of X and Y unless DNOR says otherwise.
 Eigen::Vector3d axis_of(const Keywords& line, int dimension) {
-  if (line.has("DNOR")) return solver::unit(place_in(line, "DNOR"));
+  if (line.has("DNOR")) return solver::unit(vector_of(line, "DNOR"));
   if (dimension == 2) return Eigen::Vector3d::UnitZ();
   throw DiagnosticError("missing-keyword", "MACR_LIGN_COUPE: an arc in space needs the axis that it goes round",
                         line.span, "give DNOR");
@@ -63,12 +59,12 @@ Eigen::Vector3d axis_of(const Keywords& line, int dimension) {
 
 CutLine arc_of(const Keywords& line, int dimension) {
   CutLine cut;
-  const Eigen::Vector3d centre = place_in(line, "CENTRE"), arm = place_in(line, "COOR_ORIG") - centre;
+  const Eigen::Vector3d centre = vector_of(line, "CENTRE"), arm = vector_of(line, "COOR_ORIG") - centre;
   const Eigen::Vector3d axis = axis_of(line, dimension);
   const auto count = static_cast<int>(line.integer("NB_POINTS"));
   for (int i = 0; i < count; ++i) {
     const double angle = line.real("ANGLE") * i / (count - 1.0);
-    const Eigen::AngleAxisd turn(angle * std::numbers::pi / 180.0, axis);
+    const Eigen::AngleAxisd turn(angle * degree, axis);
     cut.points.nodes.push_back(solver::to_point(centre + turn * arm));
     cut.angles.push_back(angle);
   }
@@ -209,7 +205,7 @@ NodeValues at_points(const CutLine& cut, const FieldSource& source, const std::v
 // Round the centre of an arc; in the plane Code_Aster has the one shear in SIXY.
 void turn_round_centre(const Keywords& line, NodeValues& values) {
   const int dimension = values.mesh.dimension;
-  const auto axes = solver::revolution_axes(values.mesh, place_in(line, "CENTRE"), axis_of(line, dimension));
+  const auto axes = solver::revolution_axes(values.mesh, vector_of(line, "CENTRE"), axis_of(line, dimension));
   values.field = solver::in_axes(values.field, values.rows, axes);
   if (dimension == 2) values.field = solver::with_shear_of_plane(std::move(values.field));
 }
@@ -220,7 +216,7 @@ bool has_own_kind(const Keywords& line) {
 }
 
 void turn_along_line(const Keywords& line, NodeValues& values) {
-  const auto second = line.has("VECT_Y") ? std::optional(place_in(line, "VECT_Y")) : std::nullopt;
+  const auto second = line.has("VECT_Y") ? std::optional(vector_of(line, "VECT_Y")) : std::nullopt;
   values.field = solver::in_axes(values.field, values.rows, solver::chord_axes(values.mesh, values.nodes, second));
 }
 

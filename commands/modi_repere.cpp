@@ -25,18 +25,14 @@ namespace {
 
 using interpreter::DiagnosticError;
 
-Eigen::Vector3d vector_in(const Keywords& keywords, const char* keyword) {
-  return Eigen::Vector3d(point_of(keywords, keyword).data());
-}
-
 // Axes that are the same everywhere. In the plane only the first angle counts.
 Eigen::Matrix3d fixed_axes(const Keywords& part, int dimension) {
   if (part.has("ANGL_NAUT")) {
-    const Eigen::Vector3d angles = vector_in(part, "ANGL_NAUT") * degree;
+    const Eigen::Vector3d angles = vector_of(part, "ANGL_NAUT") * degree;
     return dimension == 2 ? solver::nautical_axes(angles[0], 0.0, 0.0)
                           : solver::nautical_axes(angles[0], angles[1], angles[2]);
   }
-  const Eigen::Vector3d x = solver::unit(vector_in(part, "VECT_X")), y = vector_in(part, "VECT_Y");
+  const Eigen::Vector3d x = solver::unit(vector_of(part, "VECT_X")), y = vector_of(part, "VECT_Y");
   constexpr double square = 1e-6;
   if (std::abs(x.dot(y)) > square * y.norm())
     throw DiagnosticError("wrong-direction", "MODI_REPERE: VECT_X and VECT_Y are not at right angles",
@@ -98,8 +94,8 @@ solver::Field turned_round_axis(const Keywords& part, const AnyField& field, con
   if (dimension == 3 && !part.has("AXE_Z"))
     throw DiagnosticError("missing-keyword", "MODI_REPERE: the direction of the axis is missing", part.span,
                           "give AXE_Z");
-  const Eigen::Vector3d axis = part.has("AXE_Z") ? vector_in(part, "AXE_Z") : Eigen::Vector3d::UnitZ();
-  const solver::NodeAxes own = solver::revolution_axes(at, vector_in(part, "ORIGINE"), axis);
+  const Eigen::Vector3d axis = part.has("AXE_Z") ? vector_of(part, "AXE_Z") : Eigen::Vector3d::UnitZ();
+  const solver::NodeAxes own = solver::revolution_axes(at, vector_of(part, "ORIGINE"), axis);
   turning.meets_axis |= std::ranges::any_of(rows, [&](int row) { return !solver::has_axes(own, row); });
   const auto axes = solver::with_axes_of_neighbours(at, rows, own);
   return solver::turned(field, rows, axes,

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <string>
 
+#include <Eigen/Core>
+
 #include "interpreter/call.hpp"
 #include "solver/mesh/mesh.hpp"
 
@@ -14,6 +16,10 @@ inline solver::Point point_of(const interpreter::Keywords& keywords, const std::
   solver::Point point{};
   std::ranges::copy(keywords.reals(keyword), point.begin());
   return point;
+}
+
+inline Eigen::Vector3d vector_of(const interpreter::Keywords& keywords, const std::string& keyword) {
+  return Eigen::Vector3d(point_of(keywords, keyword).data());
 }
 
 }  // namespace comma::commands

@@ -87,7 +87,8 @@ void list_energies(Table& table, const Call& call, interpreter::Diagnostics& dia
     const bool is_elastic = std::string_view(keyword) == "ENER_ELAS";
     const bool is_potential = std::string_view(keyword) == "ENER_POT";
     const double whole =
-        reference_energy(call, keyword, energies, chosen->fields.contains(field), source.result.mesh());
+        is_potential ? reference_energy(call, keyword, energies, chosen->fields.contains(field), source.result.mesh())
+                     : 0.0;
     for (const Keywords& occurrence : call.factors(keyword)) {
       for (const Part& part : is_elastic ? parts_and_union(call, occurrence, source.result.mesh())
                                          : parts_of(call, occurrence, source.result.mesh())) {

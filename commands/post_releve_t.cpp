@@ -195,7 +195,7 @@ void sum(Table& table, const Keywords& action, const NodeValues& reading) {
   Row row = reading.head;
   if (action.has("MOMENT")) {
     const solver::Resultant total =
-        solver::resultant(reading.mesh, reading.field, reading.nodes, Eigen::Vector3d(point_of(action, "POINT").data()),
+        solver::resultant(reading.mesh, reading.field, reading.nodes, vector_of(action, "POINT"),
                           force_components(action, reading.field));
     const Eigen::Vector3d force = axes * total.force, moment = axes * total.moment;
     for (int i = 0; i < 3; ++i) row.emplace_back(fmt::format("RESULT_{}", "XYZ"[i]), force[i]);

@@ -54,8 +54,7 @@ void collect_concepts(const Value& value, const std::vector<const KeywordPage*>&
 /// Everything that reading these concepts reads.
 std::set<const Concept*> closure_of(const Reach& reach) {
   std::set<const Concept*> closure;
-  std::vector<const Concept*> open;
-  std::ranges::copy_if(reach, std::back_inserter(open), [](const Concept* handle) { return handle != nullptr; });
+  std::vector<const Concept*> open(reach.begin(), reach.end());
   while (!open.empty()) {
     const Concept* handle = open.back();
     open.pop_back();
@@ -311,17 +310,19 @@ class NameCheck {
         reach, [&](const Concept* handle) { return handle && std::ranges::find(types, handle->type) != types.end(); });
   }
 
-  /// Whether all concepts are there, and what made those behind them names no other that is not.
-  bool is_known(const Reach& reach) const {
-    if (std::ranges::find(reach, nullptr) != reach.end()) return false;
-    return std::ranges::all_of(closure_of(reach), [&](const Concept* handle) { return graph_.is_made(*handle); });
+  /// Everything that reading these concepts reads; nothing where one of them is not known, or what made one names
+  /// another that is not.
+  std::set<const Concept*> known_closure_of(const Reach& reach) const {
+    if (std::ranges::find(reach, nullptr) != reach.end()) return {};
+    auto closure = closure_of(reach);
+    const auto is_made = [&](const Concept* handle) { return graph_.is_made(*handle); };
+    return std::ranges::all_of(closure, is_made) ? std::move(closure) : std::set<const Concept*>();
   }
 
   /// The meshes behind the concepts; none when one of them is not known for certain at this point of the file.
   std::vector<const solver::Mesh*> meshes_of(const Reach& reach) const {
     std::vector<const solver::Mesh*> meshes;
-    if (!is_known(reach)) return meshes;
-    for (const Concept* handle : closure_of(reach)) {
+    for (const Concept* handle : known_closure_of(reach)) {
       if (handle->type != "maillage_sdaster") continue;
       const auto* data = dynamic_cast<const MeshConcept*>(handle->data.get());
       if (data == nullptr || !data->mesh || !is_up_to_date(*handle)) return {};
@@ -332,8 +333,7 @@ class NameCheck {
 
   std::vector<const solver::Model*> models_of(const Reach& reach) const {
     std::vector<const solver::Model*> models;
-    if (!is_known(reach)) return models;
-    for (const Concept* handle : closure_of(reach)) {
+    for (const Concept* handle : known_closure_of(reach)) {
       if (handle->type != "modele_sdaster") continue;
       const auto* data = dynamic_cast<const ModelConcept*>(handle->data.get());
       if (data == nullptr || !data->model || !is_up_to_date(*handle)) return {};

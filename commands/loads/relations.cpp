@@ -247,8 +247,7 @@ solver::SectionLink plate_link(const Keywords& keywords, const LoadedModel& targ
   const auto& properties = keywords.data<PropertiesConcept>("CARA_ELEM");
   std::vector<solver::PlateEdge> edges;
   for (const int cell : section) edges.push_back({cell, thickness_at(cell, properties, keywords, target.mesh)});
-  return solver::plate_section_link(target.mesh, edges, Eigen::Vector3d(point_of(keywords, "AXE_POUTRE").data()), node,
-                                    origin);
+  return solver::plate_section_link(target.mesh, edges, vector_of(keywords, "AXE_POUTRE"), node, origin);
 }
 
 // LIAISON_ELEM: 3D_POU, 2D_POU and COQ_POU.

@@ -23,12 +23,8 @@ using interpreter::Keywords;
 
 namespace {
 
-Eigen::Vector3d direction_in(const Keywords& action, const char* keyword) {
-  return Eigen::Vector3d(point_of(action, keyword).data());
-}
-
 std::optional<Eigen::Vector3d> second_direction(const Keywords& action) {
-  return action.has("VECT_Y") ? std::optional(direction_in(action, "VECT_Y")) : std::nullopt;
+  return action.has("VECT_Y") ? std::optional(vector_of(action, "VECT_Y")) : std::nullopt;
 }
 
 bool takes_traction(const Keywords& action) { return action.has("TRAC_NOR") || action.has("TRAC_DIR"); }
@@ -41,7 +37,7 @@ solver::NodalField traction_of(const Keywords& action, const std::vector<int>& l
     const auto normal = [&](int row) { return normals(node_of_row[static_cast<std::size_t>(row)]); };
     return solver::tractions(values.field, values.rows, normal, "TR_NOR");
   }
-  const Eigen::Vector3d direction = direction_in(action, "DIRECTION");
+  const Eigen::Vector3d direction = vector_of(action, "DIRECTION");
   const auto everywhere = [&](int) { return direction; };
   if (values.field.component("DX") >= 0) return solver::part_along(values.field, values.rows, everywhere, "TRAC_DIR");
   return solver::tractions(values.field, values.rows, everywhere, "TR_DIR");
@@ -76,12 +72,12 @@ std::optional<solver::NodeAxes> round_axes(const Keywords& action, const solver:
   const std::string& frame = action.text("REPERE");
   if (frame == "POLAIRE") return solver::polar_axes(mesh);
   if (frame == "CYLINDRIQUE")
-    return solver::revolution_axes(mesh, direction_in(action, "ORIGINE"), direction_in(action, "AXE_Z"));
+    return solver::revolution_axes(mesh, vector_of(action, "ORIGINE"), vector_of(action, "AXE_Z"));
   return std::nullopt;
 }
 
 Eigen::Matrix3d axes_by_angles(const Keywords& action) {
-  const Eigen::Vector3d angles = direction_in(action, "ANGL_NAUT") * degree;
+  const Eigen::Vector3d angles = vector_of(action, "ANGL_NAUT") * degree;
   return solver::nautical_axes(angles[0], angles[1], angles[2]);
 }
 

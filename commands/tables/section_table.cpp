@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 
 #include "commands/concepts.hpp"
+#include "commands/model/angles.hpp"
 #include "commands/model/parts_of_model.hpp"
 #include "solver/fields/plane_section.hpp"
 #include "solver/mesh/place.hpp"
@@ -63,9 +63,7 @@ Row row_of_section(const Keywords& occurrence, const solver::Model& model, const
   add_section(row, meshed, "_M");
   add_extent(row, occurrence, *model.mesh, part.cells, whole, principal.angle);
   add_section(row, whole, "");
-  row.insert(
-      row.end(),
-      {{"IY", principal.least}, {"IZ", principal.greatest}, {"ALPHA", principal.angle * 180.0 / std::numbers::pi}});
+  row.insert(row.end(), {{"IY", principal.least}, {"IZ", principal.greatest}, {"ALPHA", principal.angle / degree}});
   Eigen::Vector2d origin = whole.centre;
   if (occurrence.has("ORIG_INER")) {
     const auto given = occurrence.reals("ORIG_INER");

@@ -67,25 +67,39 @@ bool is_inside(CellType type, const ReferencePoint& at, double share) {
   }
 }
 
+std::vector<double> weights_at(CellType type, const ReferencePoint& at) {
+  const Eigen::VectorXd weights = shape_functions(type, at);
+  return {weights.begin(), weights.end()};
+}
+
+/// Where a point of space lies in the reference cell, from a place that is near; nothing where the mapping has no
+/// inverse there.
+std::optional<ReferencePoint> reference_place(const Mesh& mesh, int cell, const Eigen::Vector3d& point,
+                                              ReferencePoint at) {
+  const CellType type = mesh.cell_types[cell];
+  const int directions = dimension(type);
+  for (int iteration = 0; iteration < most_embedding_iterations; ++iteration) {
+    const CellPoint here = locate(mesh, cell, {1.0, shape_functions(type, at), shape_derivatives(type, at)});
+    const Eigen::Vector3d miss = point - here.at;
+    const Eigen::VectorXd step = directions == 3 ? Eigen::VectorXd(here.tangents.partialPivLu().solve(miss))
+                                                 : here.tangents.leftCols(directions).colPivHouseholderQr().solve(miss);
+    if (!step.allFinite() || step.norm() > far_outside_cell) return std::nullopt;
+    for (int c = 0; c < directions; ++c) at[c] += step[c];
+    if (step.norm() <= embedding_tolerance) return at;
+  }
+  return std::nullopt;
+}
+
 /// The shape functions of a solid at a point of space inside it; empty if it lies outside.
 std::optional<std::vector<double>> weights_inside(const Mesh& mesh, int cell, const Eigen::Vector3d& point) {
   const CellType type = mesh.cell_types[cell];
-  ReferencePoint at{};
+  ReferencePoint middle{};
   const auto nodes = reference_nodes(type).first(static_cast<std::size_t>(corner_count(type)));
   for (const ReferencePoint& node : nodes) {
-    for (int c = 0; c < 3; ++c) at[c] += node[c] / static_cast<double>(nodes.size());
+    for (int c = 0; c < 3; ++c) middle[c] += node[c] / static_cast<double>(nodes.size());
   }
-  for (int iteration = 0; iteration < most_embedding_iterations; ++iteration) {
-    const CellPoint here = locate(mesh, cell, {1.0, shape_functions(type, at), shape_derivatives(type, at)});
-    const Eigen::Vector3d step = here.tangents.partialPivLu().solve(point - here.at);
-    if (!step.allFinite() || step.norm() > far_outside_cell) return std::nullopt;
-    for (int c = 0; c < 3; ++c) at[c] += step[c];
-    if (step.norm() > embedding_tolerance) continue;
-    if (!is_inside(type, at, inside_tolerance)) return std::nullopt;
-    const Eigen::VectorXd weights = shape_functions(type, at);
-    return std::vector<double>(weights.begin(), weights.end());
-  }
-  return std::nullopt;
+  const auto at = reference_place(mesh, cell, point, middle);
+  return at && is_inside(type, *at, inside_tolerance) ? std::optional(weights_at(type, *at)) : std::nullopt;
 }
 
 /// A node at the place that it is brought to.
@@ -161,27 +175,6 @@ ReferencePoint straight_place(CellType type, std::span<const double> weights) {
   for (std::size_t a = 0; a < corners.size(); ++a)
     for (int c = 0; c < 3; ++c) at[c] += weights[a] * corners[a][c];
   return at;
-}
-
-std::vector<double> weights_at(CellType type, const ReferencePoint& at) {
-  const Eigen::VectorXd weights = shape_functions(type, at);
-  return {weights.begin(), weights.end()};
-}
-
-/// Where a point of space lies in the reference cell, from a place that is near; nothing where the mapping has no
-/// inverse there.
-std::optional<ReferencePoint> reference_place(const Mesh& mesh, int cell, const Eigen::Vector3d& point,
-                                              ReferencePoint at) {
-  const CellType type = mesh.cell_types[cell];
-  const int directions = dimension(type);
-  for (int iteration = 0; iteration < most_embedding_iterations; ++iteration) {
-    const CellPoint here = locate(mesh, cell, {1.0, shape_functions(type, at), shape_derivatives(type, at)});
-    const Eigen::VectorXd step = here.tangents.leftCols(directions).colPivHouseholderQr().solve(point - here.at);
-    if (!step.allFinite() || step.norm() > far_outside_cell) return std::nullopt;
-    for (int c = 0; c < directions; ++c) at[c] += step[c];
-    if (step.norm() <= embedding_tolerance) return at;
-  }
-  return std::nullopt;
 }
 
 /// The weights of all nodes of a cell whose corners have those of `host`: at the point itself where it lies in the cell

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/fields/component_group.hpp"
 
 namespace comma::solver {
 
@@ -21,29 +22,9 @@ constexpr VectorNames vectors[] = {{"DX", "DY", "DZ"}, {"DRX", "DRY", "DRZ"}, {"
 constexpr TensorNames tensors[] = {{"SIXX", "SIYY", "SIZZ", "SIXY", "SIXZ", "SIYZ"},
                                    {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"}};
 
-/// The columns of a group of components; the group is not there at all if all are -1.
-template <class Names>
-auto columns_of(const NodalField& field, const Names& names) {
-  std::array<int, std::tuple_size_v<Names>> columns{};
-  for (std::size_t i = 0; i < names.size(); ++i) columns[i] = field.component(names[i]);
-  return columns;
-}
-
 template <class Columns>
 bool any_present(const Columns& columns) {
   return std::any_of(columns.begin(), columns.end(), [](int column) { return column >= 0; });
-}
-
-/// The values of a group at a node, 0 where absent; nothing if all are.
-template <std::size_t Size>
-bool gather(const NodalField& field, int node, const std::array<int, Size>& columns, std::array<double, Size>& values) {
-  bool carried = false;
-  for (std::size_t i = 0; i < Size; ++i) {
-    const double value = columns[i] < 0 ? absent : field.at(node, columns[i]);
-    carried |= !std::isnan(value);
-    values[i] = std::isnan(value) ? 0.0 : value;
-  }
-  return carried;
 }
 
 std::array<double, 3> turned(const std::array<double, 3>& v, const Eigen::Matrix3d& axes) {
@@ -52,9 +33,7 @@ std::array<double, 3> turned(const std::array<double, 3>& v, const Eigen::Matrix
 }
 
 std::array<double, 6> turned(const std::array<double, 6>& t, const Eigen::Matrix3d& axes) {
-  Eigen::Matrix3d tensor;
-  tensor << t[0], t[3], t[4], t[3], t[1], t[5], t[4], t[5], t[2];
-  const Eigen::Matrix3d own = axes * tensor * axes.transpose();
+  const Eigen::Matrix3d own = axes * tensor_of(t) * axes.transpose();
   return {own(0, 0), own(1, 1), own(2, 2), own(0, 1), own(0, 2), own(1, 2)};
 }
 

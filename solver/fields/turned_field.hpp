@@ -14,9 +14,11 @@ namespace comma::solver {
 /// cells.
 using RowAxes = std::function<Eigen::Matrix3d(int row)>;
 
-/// The field with vectors and tensors turned (in_axes) in some rows, all else as it was. `in_plane`: of a body in the
-/// plane; turned round an axis across it, its tensors keep their one shear in SIXY (with_shear_of_plane).
+/// Of a plane body what it has no room for vanishes; turned round an axis across it, its tensors keep their one shear
+/// in SIXY (with_shear_of_plane).
 enum class TurnedBody : std::uint8_t { in_space, plane, plane_round_axis };
+
+/// The field with vectors and tensors turned (in_axes) in some rows, all else as it was.
 NodalField turned(const NodalField& field, std::span<const int> rows, const RowAxes& axes, TurnedBody body);
 ElementField turned(const ElementField& field, std::span<const int> rows, const RowAxes& axes, TurnedBody body);
 
