@@ -171,11 +171,11 @@ bool Assembler::has_symmetric_linear_part() const {
 }
 
 SkewMatrix Assembler::skew_stiffness(const Eigen::VectorXd& u) const {
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const auto& block : blocks_->list) block->add_skew_stiffness(u, state_, entries);
-  SkewMatrix matrix(dofs_.size(), dofs_.size());
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  return blocks_->skew_sum(u, state_, [](const ElementBlock& block) { return !block.is_symmetric(); });
+}
+
+SkewMatrix Assembler::elastic_skew_stiffness(const Eigen::VectorXd& u) const {
+  return blocks_->skew_sum(u, state_, [](const ElementBlock& block) { return !block.is_elastically_symmetric(); });
 }
 
 Eigen::VectorXd Assembler::internal_forces(const Eigen::VectorXd& u) const {

@@ -71,6 +71,8 @@ class Assembler {
   bool has_symmetric_linear_part() const;
   /// The rest of the tangent at u where it is not: (K - K^T) / 2 (n x n), entries only where elements are unsymmetric.
   SkewMatrix skew_stiffness(const Eigen::VectorXd& u) const;
+  /// The same beside elastic_stiffness().
+  SkewMatrix elastic_skew_stiffness(const Eigen::VectorXd& u) const;
 
   /// Internal forces at u (n), those of restrained thermal expansion included; accumulated in extended precision so
   /// that the equilibrium of a stiff body held by weak springs is not drowned in rounding.

@@ -45,6 +45,16 @@ struct Assembler::Blocks {
     for (const auto& block : list) ((*block).*add)(u, state, sums);
     return rounded(sums);
   }
+  /// By the strict lower triangle, of the blocks that `is_unsymmetric` picks.
+  template <class Pick>
+  SkewMatrix skew_sum(const Eigen::VectorXd& u, const VariableState& state, Pick&& is_unsymmetric) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (const auto& block : list)
+      if (is_unsymmetric(*block)) block->add_skew_stiffness(u, state, entries);
+    SkewMatrix matrix(u.size(), u.size());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  }
 };
 
 }  // namespace comma::solver

@@ -36,18 +36,8 @@ class DiscreteBlock final : public DiscreteElements {
 
   void add_skew_stiffness(const Eigen::VectorXd&, const VariableState&,
                           std::vector<Eigen::Triplet<double>>& entries) const override {
-    if (symmetric_) return;
-    std::array<int, max_size> dofs;
-    for (int element = 0; element < map_.element_count(); ++element) {
-      map_.dofs(element, dofs.data());
-      const Eigen::MatrixXd& k = stiffnesses_[element]->matrix;
-      for (int i = 0; i < k.rows(); ++i) {
-        for (int j = 0; j < k.cols(); ++j) {
-          const double skew = 0.5 * (k(i, j) - k(j, i));
-          if (dofs[i] > dofs[j] && skew != 0.0) entries.emplace_back(dofs[i], dofs[j], skew);
-        }
-      }
-    }
+    for (int element = 0; element < map_.element_count(); ++element)
+      map_.append_skew_half(element, stiffnesses_[element]->matrix, entries);
   }
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState&, ForceSum forces) const override {

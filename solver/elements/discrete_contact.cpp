@@ -66,19 +66,8 @@ class DiscreteContact final : public DiscreteElements {
   }
   void add_skew_stiffness(const Eigen::VectorXd& u, const VariableState&,
                           std::vector<Eigen::Triplet<double>>& entries) const override {
-    if (is_symmetric()) return;
-    std::array<int, largest_size> dofs;
-    for (int element = 0; element < map_.element_count(); ++element) {
-      map_.dofs(element, dofs.data());
-      const ElementMatrix k = tangent(element, answer(element, u).tangent);
-      for (int i = 0; i < k.rows(); ++i) {
-        for (int j = 0; j < k.cols(); ++j) {
-          const double skew = 0.5 * (k(i, j) - k(j, i));
-          const int row = dofs[static_cast<std::size_t>(i)], column = dofs[static_cast<std::size_t>(j)];
-          if (row > column && skew != 0.0) entries.emplace_back(row, column, skew);
-        }
-      }
-    }
+    for (int element = 0; element < map_.element_count(); ++element)
+      map_.append_skew_half(element, tangent(element, answer(element, u).tangent), entries);
   }
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState&, ForceSum forces) const override {

@@ -77,6 +77,8 @@ class ElementBlock {
   virtual bool takes_initial_stresses() const { return false; }
   /// Whether add_stiffness() is the whole tangent; the same in all states.
   virtual bool is_symmetric() const { return true; }
+  /// The same of add_elastic_stiffness().
+  virtual bool is_elastically_symmetric() const { return is_symmetric(); }
   /// A symmetric stiffness by which iterations converge where the tangent is none; the symmetric part of the tangent
   /// unless an element knows a better one.
   virtual void add_symmetric_stiffness(const Eigen::VectorXd& u, const VariableState& state,

@@ -43,6 +43,15 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
                      double* values) const override {
     assemble(u, state, column_starts, values, &PointLaw::respond);
   }
+  bool is_symmetric() const override { return law_.is_symmetric(); }
+  bool is_elastically_symmetric() const override { return true; }
+  void add_skew_stiffness(const Eigen::VectorXd& u, const VariableState& state,
+                          std::vector<Eigen::Triplet<double>>& entries) const override {
+    for_each_in_batches<Stiffness>(
+        this->map_.element_count(), may_be_concurrent(state),
+        [&](int element, Stiffness& k) { skew_tangent(element, u, state, k); },
+        [&](int element, const Stiffness& k) { this->map_.append_skew_half(element, k, entries); });
+  }
   void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                              double* values) const override {
     assemble(u, state, column_starts, values, &PointLaw::respond_elastically);
@@ -345,6 +354,24 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
            std::ranges::all_of(plastic_materials_, [](const PlasticMaterial& material) { return material.constant; });
   }
 
+  /// The skew-symmetric half of the tangent, by its lower triangle.
+  void skew_tangent(int element, const Eigen::VectorXd& u, const VariableState& state, Stiffness& k) const {
+    const Displacements displacements = Base::relative_displacements(u, this->dofs_of(element));
+    const Coordinates x = this->coordinates(element);
+    k.setZero();
+    std::array<StrainRow, Nodes> rows;
+    for (int g = 0; g < this->point_count(); ++g) {
+      const Point point = Base::locate(x, this->samples_[g]);
+      const Eigen::Matrix3d gradient = Base::gradient_of_displacement(displacements, this->samples_[g], point);
+      const PointResponse response = respond(element, g, x, gradient, state, &PointLaw::respond);
+      const typename Base::Law law =
+          0.5 * (response.tangent - response.tangent.transpose()).template topLeftCorner<strains, strains>();
+      for (int a = 0; a < Nodes; ++a) rows[a] = row(gradient, g, point, a);
+      Base::add_material(law, point.weight, rows, k);
+    }
+    k.template triangularView<Eigen::StrictlyUpper>() = -k.transpose();
+  }
+
   void tangent(int element, const Displacements& u, const VariableState& state, Respond how, Stiffness& k) const {
     const Coordinates x = this->coordinates(element);
     k.setZero();
@@ -353,7 +380,8 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       const Point point = Base::locate(x, this->samples_[g]);
       const Eigen::Matrix3d gradient = Base::gradient_of_displacement(u, this->samples_[g], point);
       const PointResponse response = respond(element, g, x, gradient, state, how);
-      const typename Base::Law law = response.tangent.template topLeftCorner<strains, strains>();
+      const typename Base::Law law =
+          0.5 * (response.tangent + response.tangent.transpose()).template topLeftCorner<strains, strains>();
       for (int a = 0; a < Nodes; ++a) rows[a] = row(gradient, g, point, a);
       Base::add_material(law, point.weight, rows, k);
       const typename Base::Strain stress = response.stress.template head<strains>();

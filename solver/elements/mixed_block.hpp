@@ -80,6 +80,13 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
                      double* values) const override {
     assemble(u, state, column_starts, values, &PointLaw::respond);
   }
+  void add_skew_stiffness(const Eigen::VectorXd& u, const VariableState& state,
+                          std::vector<Eigen::Triplet<double>>& entries) const override {
+    for_each_in_batches<Tangent>(
+        this->map_.element_count(), this->may_be_concurrent(state),
+        [&](int element, Tangent& tangent) { skew_tangent_of(element, u, state, tangent); },
+        [&](int element, const Tangent& tangent) { append_skew_tangent(element, tangent, entries); });
+  }
   void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                              double* values) const override {
     assemble(u, state, column_starts, values, &PointLaw::respond_elastically);
@@ -327,31 +334,44 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
         });
   }
 
-  template <class ResponseAt>
-  void forces_of(int element, const Eigen::VectorXd& u, const VariableState& state, const ResponseAt& response_at,
-                 Forces& forces) const {
+  /// Calls visitor(g, point, H, response).
+  template <class ResponseAt, class Visitor>
+  void each_point_of(int element, const Eigen::VectorXd& u, const VariableState& state, const ResponseAt& response_at,
+                     Visitor&& visitor) const {
     const Displacements displacements = Base::relative_displacements(u, this->dofs_of(element));
     const Coordinates x = this->coordinates(element);
     const Unknowns values = values_of(u, element);
-    forces.displacements.setZero();
-    forces.own.setZero();
     for (int g = 0; g < this->point_count(); ++g) {
       const Point point = Base::locate(x, this->samples_[g]);
       const Eigen::Matrix3d gradient = this->gradient_of_displacement(displacements, this->samples_[g], point);
-      const MixedResponse response = response_at(element, g, x, gradient, fields_at(values, element, g, x, state));
-      const Strain stress = point.weight * response.stress.template head<strains>();
-      for (int a = 0; a < Nodes; ++a)
-        forces.displacements.row(a) += (this->row(gradient, g, point, a).transpose() * stress).transpose();
-      forces.own.head(corners_) += point.weight * response.pressure * at_corners_[g];
-      if (two_fields()) forces.own.segment(corners_, corners_) += point.weight * response.swelling * at_corners_[g];
+      visitor(g, point, gradient, response_at(element, g, x, gradient, fields_at(values, element, g, x, state)));
     }
   }
 
+  template <class ResponseAt>
+  void forces_of(int element, const Eigen::VectorXd& u, const VariableState& state, const ResponseAt& response_at,
+                 Forces& forces) const {
+    forces.displacements.setZero();
+    forces.own.setZero();
+    each_point_of(element, u, state, response_at,
+                  [&](int g, const Point& point, const Eigen::Matrix3d& gradient, const MixedResponse& response) {
+                    const Strain stress = point.weight * response.stress.template head<strains>();
+                    for (int a = 0; a < Nodes; ++a)
+                      forces.displacements.row(a) +=
+                          (this->row(gradient, g, point, a).transpose() * stress).transpose();
+                    forces.own.head(corners_) += point.weight * response.pressure * at_corners_[g];
+                    if (two_fields())
+                      forces.own.segment(corners_, corners_) += point.weight * response.swelling * at_corners_[g];
+                  });
+  }
+
   void add_law_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces, Respond how) const {
-    add_forces(u, state, forces,
-               [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient, const Fields& fields) {
-                 return response_at(element, g, x, gradient, fields, state, how);
-               });
+    add_forces(u, state, forces, law_response(state, how));
+  }
+  auto law_response(const VariableState& state, Respond how) const {
+    return
+        [this, &state, how](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient,
+                            const Fields& fields) { return response_at(element, g, x, gradient, fields, state, how); };
   }
 
   void assemble(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
@@ -368,42 +388,59 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
 
   void tangent_of(int element, const Eigen::VectorXd& u, const VariableState& state, Respond how,
                   Tangent& tangent) const {
-    const Displacements displacements = Base::relative_displacements(u, this->dofs_of(element));
-    const Coordinates x = this->coordinates(element);
-    const Unknowns values = values_of(u, element);
     tangent.displacements.setZero();
     tangent.coupling.setZero();
     tangent.own.setZero();
-    for (int g = 0; g < this->point_count(); ++g) {
-      const Point point = Base::locate(x, this->samples_[g]);
-      const Eigen::Matrix3d gradient = this->gradient_of_displacement(displacements, this->samples_[g], point);
-      add_point(element, g, x, point, gradient, fields_at(values, element, g, x, state), state, how, tangent);
-    }
+    each_point_of(element, u, state, law_response(state, how),
+                  [&](int g, const Point& point, const Eigen::Matrix3d& gradient, const MixedResponse& response) {
+                    add_point(0.5 * (response.tangent + response.tangent.transpose()), g, point, gradient, tangent);
+                    if (!this->law_.has_geometric_part()) return;
+                    const typename Base::Strain stress = response.stress.template head<strains>();
+                    this->add_geometric(point, stress, tangent.displacements);
+                    this->add_hoops(this->samples_[g], point, stress, tangent.displacements);
+                  });
     tangent.displacements.template triangularView<Eigen::StrictlyUpper>() = tangent.displacements.transpose();
     make_translation_exact<Nodes, Dim>(tangent.displacements, Base::invariant_directions());
   }
 
-  void add_point(int element, int g, const Coordinates& x, const Point& point, const Eigen::Matrix3d& gradient,
-                 const Fields& fields, const VariableState& state, Respond how, Tangent& tangent) const {
-    const MixedResponse response = response_at(element, g, x, gradient, fields, state, how);
+  /// The skew-symmetric half, with the strict lower triangle of the displacements.
+  void skew_tangent_of(int element, const Eigen::VectorXd& u, const VariableState& state, Tangent& tangent) const {
+    tangent.displacements.setZero();
+    tangent.coupling.setZero();
+    tangent.own.setZero();
+    each_point_of(element, u, state, law_response(state, &PointLaw::respond),
+                  [&](int g, const Point& point, const Eigen::Matrix3d& gradient, const MixedResponse& response) {
+                    add_point(0.5 * (response.tangent - response.tangent.transpose()), g, point, gradient, tangent);
+                  });
+    tangent.displacements.template triangularView<Eigen::StrictlyUpper>() = -tangent.displacements.transpose();
+  }
+
+  void append_skew_tangent(int element, const Tangent& tangent, std::vector<Eigen::Triplet<double>>& entries) const {
+    const int count = unknowns_.count();
+    std::array<int, size + most_unknowns> dofs;
+    this->map_.dofs(element, dofs.data());
+    unknowns_.dofs(this->map_.nodes(element), dofs.data() + size);
+    Eigen::MatrixXd whole(size + count, size + count);
+    whole << tangent.displacements, tangent.coupling.leftCols(count), -tangent.coupling.leftCols(count).transpose(),
+        tangent.own.topLeftCorner(count, count);
+    append_skew_half(std::span(dofs).first(static_cast<std::size_t>(size + count)), whole, entries);
+  }
+
+  /// Half of a point's tangent, symmetric or skew: of the displacements the lower triangle.
+  void add_point(const Eigen::Matrix<double, 8, 8>& half, int g, const Point& point, const Eigen::Matrix3d& gradient,
+                 Tangent& tangent) const {
     std::array<StrainRow, Nodes> rows;
     for (int a = 0; a < Nodes; ++a) rows[a] = this->row(gradient, g, point, a);
-    this->add_material(response.tangent.template topLeftCorner<strains, strains>(), point.weight, rows,
-                       tangent.displacements);
-    if (this->law_.has_geometric_part()) {
-      const typename Base::Strain stress = response.stress.template head<strains>();
-      this->add_geometric(point, stress, tangent.displacements);
-      this->add_hoops(this->samples_[g], point, stress, tangent.displacements);
-    }
+    this->add_material(half.template topLeftCorner<strains, strains>(), point.weight, rows, tangent.displacements);
     const std::array<int, 2> of_law = {pressure_row, swelling_row};
     for (int i = 0; i < unknowns_.fields(); ++i) {
-      const Strain pull = point.weight * response.tangent.col(of_law[i]).template head<strains>();
+      const Strain pull = point.weight * half.col(of_law[i]).template head<strains>();
       for (int a = 0; a < Nodes; ++a)
         tangent.coupling.template middleRows<Dim>(a * Dim).middleCols(i * corners_, corners_) +=
             rows[a].transpose() * pull * at_corners_[g].transpose();
       for (int j = 0; j < unknowns_.fields(); ++j)
         tangent.own.block(i * corners_, j * corners_, corners_, corners_) +=
-            point.weight * response.tangent(of_law[i], of_law[j]) * at_corners_[g] * at_corners_[g].transpose();
+            point.weight * half(of_law[i], of_law[j]) * at_corners_[g] * at_corners_[g].transpose();
     }
   }
 

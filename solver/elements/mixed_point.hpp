@@ -28,10 +28,11 @@ inline constexpr int swelling_row = 6, pressure_row = 7;
 /// What works on the strain (Green and Lagrange's of the displacement in large strains, six components with shear
 /// angles), the swelling and the pressure.
 struct MixedResponse {
-  Vector6d stress;                      ///< Cauchy's, or the second Piola-Kirchhoff
-  double swelling;                      ///< the law's mean stress less the pressure
-  double pressure;                      ///< the volume that the displacement has less the swelling
-  Eigen::Matrix<double, 8, 8> tangent;  ///< their derivatives by (strain, swelling, pressure), symmetric
+  Vector6d stress;  ///< Cauchy's, or the second Piola-Kirchhoff
+  double swelling;  ///< the law's mean stress less the pressure
+  double pressure;  ///< the volume that the displacement has less the swelling
+  Eigen::Matrix<double, 8, 8>
+      tangent;  ///< their derivatives by (strain, swelling, pressure), symmetric if the law's is
 };
 
 /// The derivatives of  W(with_volume(H, swelling)) + pressure (volume_of(H) - swelling),  W being the energy whose

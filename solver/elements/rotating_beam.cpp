@@ -125,17 +125,8 @@ class RotatingBeam final : public ElementBlock {
   }
   void add_skew_stiffness(const Eigen::VectorXd& u, const VariableState&,
                           std::vector<Eigen::Triplet<double>>& entries) const override {
-    std::array<int, 12> dofs;
-    for (int element = 0; element < map_.element_count(); ++element) {
-      map_.dofs(element, dofs.data());
-      const BeamMatrix k = tangent(element, u);
-      for (int i = 0; i < 12; ++i) {
-        for (int j = 0; j < 12; ++j) {
-          const int row = dofs[static_cast<std::size_t>(i)], column = dofs[static_cast<std::size_t>(j)];
-          if (row > column) entries.emplace_back(row, column, 0.5 * (k(i, j) - k(j, i)));
-        }
-      }
-    }
+    for (int element = 0; element < map_.element_count(); ++element)
+      map_.append_skew_half(element, tangent(element, u), entries);
   }
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {

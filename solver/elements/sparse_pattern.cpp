@@ -153,4 +153,22 @@ void ElementMap::add(int element, const double* matrix, std::span<const int> col
   }
 }
 
+void ElementMap::append_skew_half(int element, const Eigen::Ref<const Eigen::MatrixXd>& matrix,
+                                  std::vector<Eigen::Triplet<double>>& entries) const {
+  std::vector<int> dofs(static_cast<std::size_t>(matrix.rows()));
+  this->dofs(element, dofs.data());
+  solver::append_skew_half(dofs, matrix, entries);
+}
+
+void append_skew_half(std::span<const int> dofs, const Eigen::Ref<const Eigen::MatrixXd>& matrix,
+                      std::vector<Eigen::Triplet<double>>& entries) {
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+      const double skew = 0.5 * (matrix(i, j) - matrix(j, i));
+      const int row = dofs[static_cast<std::size_t>(i)], column = dofs[static_cast<std::size_t>(j)];
+      if (row > column && skew != 0.0) entries.emplace_back(row, column, skew);
+    }
+  }
+}
+
 }  // namespace comma::solver

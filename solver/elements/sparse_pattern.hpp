@@ -55,6 +55,9 @@ class ElementMap {
   /// Adds a symmetric element matrix (size x size, size = nodes x components, both triangles given) to `values`, the
   /// value array of a matrix of the pattern.
   void add(int element, const double* matrix, std::span<const int> column_starts, double* values) const;
+  /// append_skew_half() with the degrees of freedom of an element.
+  void append_skew_half(int element, const Eigen::Ref<const Eigen::MatrixXd>& matrix,
+                        std::vector<Eigen::Triplet<double>>& entries) const;
 
  private:
   int slot(int node, int component) const;
@@ -69,5 +72,9 @@ class ElementMap {
   std::vector<int> nodes_;
   std::vector<int> pair_offsets_;  // per element, for local pairs (i, j), i > j, row by row
 };
+
+/// Appends what is below the diagonal of the skew-symmetric half of a matrix of these degrees of freedom.
+void append_skew_half(std::span<const int> dofs, const Eigen::Ref<const Eigen::MatrixXd>& matrix,
+                      std::vector<Eigen::Triplet<double>>& entries);
 
 }  // namespace comma::solver

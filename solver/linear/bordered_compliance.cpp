@@ -4,15 +4,9 @@
 #include <numeric>
 #include <vector>
 
-#include <dmumps_c.h>
-#include <fmt/format.h>
-
-#include "solver/error.hpp"
-#include "solver/linear/blas_threads.hpp"
 #include "solver/linear/dense_solve.hpp"
 #include "solver/linear/equilibration.hpp"
-#include "solver/linear/mumps_controls.hpp"
-#include "solver/linear/shared_library.hpp"
+#include "solver/linear/mumps_instance.hpp"
 
 namespace comma::solver {
 namespace {
@@ -54,65 +48,35 @@ struct Bordered {
 class SchurFactorisation {
  public:
   SchurFactorisation() {
-    data_.par = 1;
-    data_.sym = general_symmetric;
-    data_.comm_fortran = whole_communicator;
-    run(job_initialise);
-    for (int stream = 1; stream <= 3; ++stream) control(stream) = -1;
-    control(4) = 0;  // print nothing
-    control(6) = 0;  // no permutation and no scaling: the matrix is scaled already
-    control(8) = 0;
-    control(7) = nested_dissection;
-    control(14) = extra_workspace;
-    control(19) = centralised_schur;
-    control(31) = 1;      // the factors themselves are of no use
-    data_.cntl[0] = 0.0;  // positive definite: no search for pivots
+    mumps_.control(7) = nested_dissection;
+    mumps_.control(14) = extra_workspace;
+    mumps_.control(19) = centralised_schur;
+    mumps_.control(31) = 1;     // the factors themselves are of no use
+    mumps_.threshold(1) = 0.0;  // positive definite: no search for pivots
   }
-  ~SchurFactorisation() { run(job_destroy); }
-  SchurFactorisation(const SchurFactorisation&) = delete;
-  SchurFactorisation& operator=(const SchurFactorisation&) = delete;
 
   /// Of the last `count` rows; its upper triangle.
   Eigen::MatrixXd schur(Bordered& matrix, int size, int count) {
     std::vector<int> last(static_cast<std::size_t>(count));
     std::iota(last.begin(), last.end(), size - count + 1);
     Eigen::MatrixXd result(count, count);
-    data_.n = size;
-    data_.nnz = static_cast<MUMPS_INT8>(matrix.values.size());
-    data_.irn = matrix.rows.data();
-    data_.jcn = matrix.columns.data();
-    data_.a = matrix.values.data();
-    data_.size_schur = count;
-    data_.listvar_schur = last.data();
-    data_.schur = result.data();
-    const BlasThreads threads(library_);
-    const AllThreads all(threads);
-    run(job_analyse_and_factorise);
-    check();
+    DMUMPS_STRUC_C& data = mumps_.data();
+    data.n = size;
+    data.nnz = static_cast<MUMPS_INT8>(matrix.values.size());
+    data.irn = matrix.rows.data();
+    data.jcn = matrix.columns.data();
+    data.a = matrix.values.data();
+    data.size_schur = count;
+    data.listvar_schur = last.data();
+    data.schur = result.data();
+    const AllThreads threads(mumps_.threads());
+    mumps_.run(job_analyse_and_factorise);
+    mumps_.check("coarsen the slave surface, or solve with ALGO_CONT='GCP'");
     return result;
   }
 
  private:
-  int& control(int number) { return data_.icntl[number - 1]; }
-
-  void run(int job) {
-    data_.job = job;
-    mumps_(&data_);
-  }
-
-  void check() const {
-    const int status = data_.infog[0];
-    if (status >= 0) return;
-    if (status == -9 || status == -13 || status == -19 || status == -8 || status == -51)
-      throw Error("out-of-memory", "the compliance of the contact conditions does not fit into memory",
-                  "coarsen the slave surface, or solve with ALGO_CONT='GCP'");
-    throw Error("linear-solver", fmt::format("MUMPS refuses the bordered matrix (INFOG(1) = {}, INFOG(2) = {})", status,
-                                             data_.infog[1]));
-  }
-
-  SharedLibrary library_{COMMA_MUMPS_LIBRARY};
-  decltype(&dmumps_c) mumps_ = library_.function<decltype(dmumps_c)>("dmumps_c");
-  DMUMPS_STRUC_C data_{};
+  MumpsInstance mumps_{MumpsSymmetry::general};
 };
 
 }  // namespace

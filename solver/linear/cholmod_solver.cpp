@@ -18,10 +18,6 @@ namespace comma::solver {
 
 namespace {
 
-/// Operations from which a factorisation gains by more than one thread. Below, waiting takes a third more of the
-/// processors for a few per cent of time, and twice the time where others use them.
-constexpr double many_operations = 3e10;
-
 /// CHOLMOD's loops over the entries of a front ask for four threads, whatever the machine has, and those that wait do
 /// so at work: with one thread the same factorisation takes a fifth less time, and a third less of processors that
 /// others share.

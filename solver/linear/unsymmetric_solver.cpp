@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <Eigen/SparseLU>
@@ -12,6 +14,7 @@
 #include "solver/error.hpp"
 #include "solver/linear/equilibration.hpp"
 #include "solver/linear/matrix_checks.hpp"
+#include "solver/linear/mumps_instance.hpp"
 #include "solver/linear/refined_solver.hpp"
 #include "solver/linear/refinement.hpp"
 
@@ -116,8 +119,20 @@ SymmetricMatrix gram_matrix(const GeneralMatrix& matrix) {
   return product.triangularView<Eigen::Lower>();
 }
 
+/// Of the equilibrated matrix.
+class UnsymmetricSolver::Factors {
+ public:
+  virtual ~Factors() = default;
+  /// A pivot is null that has lost more than `digits` decimal digits of what is largest in its column (`references`,
+  /// n). Throws Error `out-of-memory`.
+  virtual FactorReport factorise(const GeneralMatrix& working, const Eigen::VectorXd& references, int digits) = 0;
+  virtual void solve(Eigen::Ref<Eigen::MatrixXd> columns) const = 0;
+};
+
+namespace {
+
 /// Eigen keeps the pivots to itself: they are the diagonal of U, which it stores along with L.
-struct UnsymmetricSolver::Factors : Eigen::SparseLU<GeneralMatrix, Eigen::COLAMDOrdering<int>> {
+struct ReadableLu : Eigen::SparseLU<GeneralMatrix, Eigen::COLAMDOrdering<int>> {
   /// By unknown.
   Eigen::VectorXd pivots() const {
     Eigen::VectorXd in_order(cols());
@@ -129,6 +144,59 @@ struct UnsymmetricSolver::Factors : Eigen::SparseLU<GeneralMatrix, Eigen::COLAMD
     return colsPermutation().inverse() * in_order;
   }
 };
+
+class EigenFactors final : public UnsymmetricSolver::Factors {
+ public:
+  FactorReport factorise(const GeneralMatrix& working, const Eigen::VectorXd& references, int digits) override {
+    lu_ = std::make_unique<ReadableLu>();
+    lu_->compute(working);
+    if (lu_->info() != Eigen::Success) {
+      lu_ = std::make_unique<ReadableLu>();
+      lu_->compute(shifted(working));
+      digits = digits < 0 ? zero_pivot_digits : std::min(digits, zero_pivot_digits);
+    }
+    if (lu_->info() == Eigen::Success) return judge_pivots(lu_->pivots().cwiseAbs(), references, digits);
+    FactorReport report{FactorVerdict::singular, dependent_columns(working), std::numeric_limits<double>::max_digits10};
+    if (report.null_rows.empty())
+      throw Error("out-of-memory", "the unsymmetric matrix cannot be factorised: " + lu_->lastErrorMessage());
+    return report;
+  }
+  void solve(Eigen::Ref<Eigen::MatrixXd> columns) const override { columns = lu_->solve(columns).eval(); }
+
+ private:
+  std::unique_ptr<ReadableLu> lu_;
+};
+
+class MumpsFactors final : public UnsymmetricSolver::Factors {
+ public:
+  FactorReport factorise(const GeneralMatrix& working, const Eigen::VectorXd& references, int digits) override {
+    if (!has_pattern_of(working)) analyse(working);
+    mumps_.note_null_pivots(references, digits);
+    mumps_.factorise(working);
+    FactorReport report;
+    report.null_rows = mumps_.null_rows();
+    if (!report.null_rows.empty()) report.verdict = FactorVerdict::singular;
+    return report;
+  }
+  void solve(Eigen::Ref<Eigen::MatrixXd> columns) const override { mumps_.solve(columns); }
+
+ private:
+  bool has_pattern_of(const GeneralMatrix& working) const {
+    return std::ranges::equal(starts_, std::span(working.outerIndexPtr(), working.outerSize() + 1)) &&
+           std::ranges::equal(rows_, std::span(working.innerIndexPtr(), working.nonZeros()));
+  }
+
+  void analyse(const GeneralMatrix& working) {
+    starts_.assign(working.outerIndexPtr(), working.outerIndexPtr() + working.outerSize() + 1);
+    rows_.assign(working.innerIndexPtr(), working.innerIndexPtr() + working.nonZeros());
+    mumps_.analyse(working);
+  }
+
+  MumpsInstance mumps_{MumpsSymmetry::none};
+  std::vector<int> starts_, rows_;  ///< the pattern analysed
+};
+
+}  // namespace
 
 UnsymmetricSolver::UnsymmetricSolver(const LinearOptions& options) : options_(options) {}
 UnsymmetricSolver::~UnsymmetricSolver() = default;
@@ -158,24 +226,15 @@ FactorReport UnsymmetricSolver::factorise(const SymmetricMatrix& symmetric, cons
 }
 
 void UnsymmetricSolver::factorise_scaled(const GeneralMatrix& working) {
-  int digits = options_.singular_digits;
-  factors_ = std::make_unique<Factors>();
-  factors_->compute(working);
-  if (factors_->info() != Eigen::Success) {
-    factors_ = std::make_unique<Factors>();
-    factors_->compute(shifted(working));
-    digits = digits < 0 ? zero_pivot_digits : std::min(digits, zero_pivot_digits);
-  }
-  if (factors_->info() != Eigen::Success) {
-    report_ = {FactorVerdict::singular, dependent_columns(working), std::numeric_limits<double>::max_digits10};
-    if (report_.null_rows.empty())
-      throw Error("out-of-memory", "the unsymmetric matrix cannot be factorised: " + factors_->lastErrorMessage());
-    return;
-  }
+  const bool is_small = working.rows() <= small_unsymmetric_system;
+  if (is_small)
+    factors_ = std::make_unique<EigenFactors>();
+  else if (!factors_)
+    factors_ = std::make_unique<MumpsFactors>();
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(working.rows());
   Eigen::VectorXd references = maxima_of(working, ones, ones).columns;
   references = (references.array() > 0.0).select(references, ones);
-  report_ = judge_pivots(factors_->pivots().cwiseAbs(), references, digits);
+  report_ = factors_->factorise(working, references, options_.singular_digits);
 }
 
 double UnsymmetricSolver::solve(Eigen::Ref<Eigen::MatrixXd> rhs) const {
@@ -187,8 +246,7 @@ double UnsymmetricSolver::solve(Eigen::Ref<Eigen::MatrixXd> rhs) const {
       [this](const double* b, const double* high, const double* low, std::vector<DoubleDouble>& sums, double* result) {
         general_residual(matrix_, b, high, low, sums, result);
       },
-      [this](Eigen::Ref<Eigen::MatrixXd> columns) { columns = factors_->solve(columns).eval(); }, row_factors_,
-      column_factors_, norm_};
+      [this](Eigen::Ref<Eigen::MatrixXd> columns) { factors_->solve(columns); }, row_factors_, column_factors_, norm_};
   const double worst = refine(system, options_.refinement_steps, rhs);
   if (worst <= LinearSolver::worst_residual) return worst;
   throw Error(

@@ -23,11 +23,17 @@ GeneralMatrix full_matrix(const SymmetricMatrix& symmetric, const SkewMatrix& sk
 /// nothing holds be named where K itself is not symmetric; its entries are squares, so that digits count double.
 SymmetricMatrix gram_matrix(const GeneralMatrix& matrix);
 
-/// P A Q = L U with partial pivoting (Eigen's SparseLU, after Demmel, Eisenstat, Gilbert, Li, Liu, "A supernodal
-/// approach to sparse partial pivoting", SIAM J. Matrix Anal. Appl. 20, 1999) of the matrix equilibrated by rows and
-/// columns; solutions are refined as those of symmetric systems (refinement.hpp).
+/// Up to here SparseLU takes less time than loading MUMPS does (docs/linear_solvers.md).
+inline constexpr int small_unsymmetric_system = 1000;
+
+/// P A Q = L U with partial pivoting of the matrix equilibrated by rows and columns: up to `small_unsymmetric_system`
+/// rows by Eigen's SparseLU (after Demmel, Eisenstat, Gilbert, Li, Liu, "A supernodal approach to sparse partial
+/// pivoting", SIAM J. Matrix Anal. Appl. 20, 1999), beyond by MUMPS. Solutions are refined as those of symmetric
+/// systems (refinement.hpp).
 class UnsymmetricSolver {
  public:
+  class Factors;
+
   explicit UnsymmetricSolver(const LinearOptions& options);
   ~UnsymmetricSolver();
 
@@ -42,8 +48,6 @@ class UnsymmetricSolver {
   double solve(Eigen::Ref<Eigen::MatrixXd> rhs) const;
 
  private:
-  struct Factors;
-
   void factorise_scaled(const GeneralMatrix& working);
 
   LinearOptions options_;

@@ -68,13 +68,14 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
   if (is_known(kind) || (elimination_.reduced_size() == 0 && is_constant())) return false;
   version_ = assembler_.stiffness_version();
   kind_ = kind;
-  SymmetricMatrix reduced = assembled_anew(u, kind);
+  const SkewMatrix skew_half = is_symmetric() ? SkewMatrix() : skew(u, kind);
+  SymmetricMatrix reduced = assembled_anew(u, kind, skew_half);
   if (reduced.rows() == 0) return false;
   try {
     if (is_symmetric())
       factorise(std::move(reduced));
     else
-      factorise(reduced, elimination_.reduce_skew(skew(u)));
+      factorise(reduced, elimination_.reduce_skew(skew_half));
   } catch (const Error& error) {
     if (error.code() == "singular-matrix" && kind != TangentKind::elastic && is_held_elastically(u))
       throw Error(
@@ -128,7 +129,7 @@ Eigen::MatrixXd TangentSystem::forces(const Eigen::VectorXd& u, const Eigen::Mat
   const SymmetricMatrix matrix = stiffness(u, kind);
   Eigen::MatrixXd forces = matrix.selfadjointView<Eigen::Lower>() * d;
   if (!is_symmetric()) {
-    const SkewMatrix lower = skew(u);
+    const SkewMatrix lower = skew(u, kind);
     forces += lower * d - lower.transpose() * d;
   }
   return forces;
@@ -148,10 +149,10 @@ SymmetricMatrix TangentSystem::assembled(const Eigen::VectorXd& u, TangentKind k
 }
 
 /// To be factorised: held_forces() are those of this one. Empty where nothing is free.
-SymmetricMatrix TangentSystem::assembled_anew(const Eigen::VectorXd& u, TangentKind kind) {
+SymmetricMatrix TangentSystem::assembled_anew(const Eigen::VectorXd& u, TangentKind kind, const SkewMatrix& skew_half) {
   const Stopwatch stopwatch(counters_.assembling);
   SymmetricMatrix whole = stiffness(u, kind);
-  if (!is_constant()) take_held_rows(whole, u);
+  if (!is_constant()) take_held_rows(whole, skew_half);
   return elimination_.reduced_size() == 0 ? SymmetricMatrix() : reduce(std::move(whole));
 }
 
@@ -161,7 +162,7 @@ SymmetricMatrix TangentSystem::reduce(SymmetricMatrix whole) const {
   return reduced;
 }
 
-void TangentSystem::take_held_rows(const SymmetricMatrix& whole, const Eigen::VectorXd& u) {
+void TangentSystem::take_held_rows(const SymmetricMatrix& whole, const SkewMatrix& skew_half) {
   std::vector<char> held(static_cast<std::size_t>(dofs_.size()), 1);
   for (const int dof : elimination_.kept()) held[static_cast<std::size_t>(dof)] = 0;
   std::vector<Eigen::Triplet<double>> terms;
@@ -174,7 +175,7 @@ void TangentSystem::take_held_rows(const SymmetricMatrix& whole, const Eigen::Ve
       }
   };
   take(whole, 1.0);
-  if (!is_symmetric()) take(skew(u), -1.0);
+  take(skew_half, -1.0);
   held_rows_.resize(dofs_.size(), dofs_.size());
   held_rows_.setFromTriplets(terms.begin(), terms.end());
 }
@@ -195,8 +196,9 @@ std::string TangentSystem::parts_on_springs(const RowMatrix* held) const {
 }
 
 /// The skew half of the tangent, by its strictly lower triangle.
-SkewMatrix TangentSystem::skew(const Eigen::VectorXd& u) const {
-  SkewMatrix matrix = assembler_.skew_stiffness(u);
+SkewMatrix TangentSystem::skew(const Eigen::VectorXd& u, TangentKind kind) const {
+  SkewMatrix matrix =
+      kind == TangentKind::elastic ? assembler_.elastic_skew_stiffness(u) : assembler_.skew_stiffness(u);
   if (!followers_) return matrix;
   const SkewMatrix change = followers_->tangent(u);
   const SkewMatrix transposed = change.transpose();

@@ -141,12 +141,12 @@ class TangentSystem {
   SymmetricMatrix stiffness(const Eigen::VectorXd& u, TangentKind kind) const;
   std::string parts_on_springs(const RowMatrix* held) const;
   SymmetricMatrix assembled(const Eigen::VectorXd& u, TangentKind kind) const;
-  SymmetricMatrix assembled_anew(const Eigen::VectorXd& u, TangentKind kind);
+  SymmetricMatrix assembled_anew(const Eigen::VectorXd& u, TangentKind kind, const SkewMatrix& skew_half);
   SymmetricMatrix reduce(SymmetricMatrix whole) const;
-  void take_held_rows(const SymmetricMatrix& whole, const Eigen::VectorXd& u);
+  void take_held_rows(const SymmetricMatrix& whole, const SkewMatrix& skew_half);
   bool is_known(TangentKind kind) const;
   bool is_symmetric() const { return stays_symmetric_ || (assembler_.is_symmetric() && !followers_); }
-  SkewMatrix skew(const Eigen::VectorXd& u) const;
+  SkewMatrix skew(const Eigen::VectorXd& u, TangentKind kind) const;
   void factorise(SymmetricMatrix reduced);
   void factorise(const SymmetricMatrix& reduced, const SkewMatrix& skew);
   bool add_springs(const FactorReport& report, SymmetricMatrix& reduced);

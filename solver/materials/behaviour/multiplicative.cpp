@@ -109,7 +109,6 @@ MultiplicativeResponse integrate_multiplicative(const PlasticPoint& point, const
     response.tangent = kept * trial.tangent + trial.stress * kept_slope.transpose();
   }
   add_volume(point, expansion, trial, f, response);
-  response.tangent = 0.5 * (response.tangent + response.tangent.transpose()).eval();
   const Matrix3d elastic = trial.shape * (f * g * f.transpose());
   const Matrix3d deviator = kept * (elastic - trial.trace / 3.0 * Matrix3d::Identity());
   response.state.elastic = deviator + mean_of_unit_volume(deviator) * Matrix3d::Identity();

@@ -15,7 +15,7 @@ struct MultiplicativeState {
 struct MultiplicativeResponse {
   MultiplicativeState state;
   Vector6d stress;   ///< second Piola-Kirchhoff
-  Matrix6d tangent;  ///< the symmetric part of d stress / d (Green-Lagrange strain), with shear angles
+  Matrix6d tangent;  ///< d stress / d (Green-Lagrange strain), with shear angles; not symmetric where it flows
 };
 
 /// From the state at the displacement gradient `before` to `now`. Kirchhoff's stress is

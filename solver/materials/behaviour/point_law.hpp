@@ -37,7 +37,7 @@ struct PointInput {
 struct PointResponse {
   /// Whose work on the strain is that of the forces: in large strains the second Piola-Kirchhoff stress.
   Vector6d stress;
-  Matrix6d tangent;   ///< its derivative by the (Green-Lagrange) strain
+  Matrix6d tangent;   ///< its derivative by the (Green-Lagrange) strain; PointLaw::is_symmetric
   Vector6d reported;  ///< the stress that results show: Cauchy's in large strains, in plane stress on the thickness as
                       ///< it has become by logarithmic strains, on the initial one by Green and Lagrange's
   Vector6d own = Vector6d::Zero();  ///< the stress of the law's own strain, which the next step begins with
@@ -58,6 +58,8 @@ class PointLaw {
   /// the same tangents, iterations that a loose criterion ends end where they do there.
   bool has_geometric_part() const { return is_large() && behaviour_.kinematics != Kinematics::updated; }
   bool has_hoop_part() const { return behaviour_.kinematics == Kinematics::multiplicative; }
+  /// Whether the tangent is symmetric. That of the multiplicative split is not: what flows has no potential there.
+  bool is_symmetric() const { return behaviour_.kinematics != Kinematics::multiplicative; }
   /// Whether the tangent never changes.
   bool is_linear() const { return !is_large() && behaviour_.relation == Relation::elastic; }
   Relation relation() const { return behaviour_.relation; }

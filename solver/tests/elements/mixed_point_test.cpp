@@ -85,16 +85,14 @@ TEST_CASE(
   const auto [kinematics, two_fields] = GENERATE(
       std::pair{Kinematics::small, true}, std::pair{Kinematics::small, false}, std::pair{Kinematics::logarithmic, true},
       std::pair{Kinematics::logarithmic, false}, std::pair{Kinematics::multiplicative, true});
-  const double amplitude =
-      kinematics == Kinematics::multiplicative
-          ? 0.002
-          : GENERATE(0.002, 0.15);  // below and above yield; the split has the symmetric half alone where it flows
+  const double amplitude = GENERATE(0.002, 0.15);  // below and above yield
   const bool large = kinematics != Kinematics::small;
   const At at{kinematics, two_fields};
   const Matrix3d h = rough(amplitude);
   const double swelling = 0.7 * amplitude, pressure = 40.0;
   const auto tangent = at(h, swelling, pressure).tangent;
-  CHECK((tangent - tangent.transpose()).norm() < 1e-12 * tangent.norm());
+  const bool symmetric = (tangent - tangent.transpose()).norm() < 1e-12 * tangent.norm();
+  CHECK(symmetric == (kinematics != Kinematics::multiplicative || amplitude < 0.01));
   constexpr double step = 1e-6;
   for (int k = 0; k < 9; ++k) {
     Matrix3d direction = Matrix3d::Zero();

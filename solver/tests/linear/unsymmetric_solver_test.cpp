@@ -146,3 +146,28 @@ TEST_CASE("an unsymmetric matrix with an entry that is no number is refused") {
   UnsymmetricSolver solver({});
   CHECK_THROWS_AS(solver.factorise(parts.symmetric, parts.skew), Error);
 }
+
+TEST_CASE("large unsymmetric matrices are solved by another method, and told when they are singular") {
+  constexpr int n = small_unsymmetric_system + 50;
+  SymmetricMatrix symmetric(n, n);
+  SkewMatrix skew(n, n);
+  for (int i = 0; i < n; ++i) {
+    symmetric.insert(i, i) = 4.0;
+    if (i + 1 == n) break;
+    symmetric.insert(i + 1, i) = -1.0;
+    skew.insert(i + 1, i) = 1.0 + i % 3;
+  }
+  UnsymmetricSolver solver({});
+  REQUIRE(solver.factorise(symmetric, skew).verdict == FactorVerdict::ok);
+  const Eigen::VectorXd expected = Eigen::VectorXd::LinSpaced(n, -3.0, 5.0);
+  Eigen::MatrixXd x = full_matrix(symmetric, skew) * expected;
+  CHECK(solver.solve(x) <= 1e-15);
+  CHECK((x - expected).norm() <= 1e-14 * expected.norm());
+
+  symmetric.coeffRef(n / 2, n / 2) = 0.0;
+  for (const int column : {n / 2 - 1, n / 2})
+    symmetric.coeffRef(column + 1, column) = skew.coeffRef(column + 1, column) = 0.0;
+  const FactorReport report = solver.factorise(symmetric, skew);
+  REQUIRE(report.verdict == FactorVerdict::singular);
+  CHECK(report.null_rows == std::vector{n / 2});
+}
