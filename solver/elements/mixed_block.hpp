@@ -291,7 +291,10 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
     const PointResponse law =
         this->respond(element, g, x, with_volume(gradient, fields.swelling, measure_), state, how);
     MixedResponse response = mixed_response(gradient, fields.swelling, fields.pressure, law, measure_);
-    if (!two_fields()) eliminate_swelling(fields.bulk, response);
+    if (two_fields()) return response;
+    eliminate_swelling(fields.bulk, response);
+    if (how == &PointLaw::begin && behaviour_.kinematics == Kinematics::logarithmic)
+      response.tangent.template topLeftCorner<6, 6>() += beginning_stiffness(gradient, fields.pressure);
     return response;
   }
 

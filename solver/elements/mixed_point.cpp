@@ -134,6 +134,13 @@ MixedResponse mixed_response(const Matrix3d& gradient, double swelling, double p
   return result;
 }
 
+Matrix6d beginning_stiffness(const Matrix3d& gradient, double pressure) {
+  const Matrix3d f = deformation_gradient(gradient);
+  const Matrix3d inverse = (f.transpose() * f).inverse();
+  const Vector6d normal = components_of_stress(inverse);
+  return -pressure * (derivative_of_inverse(inverse) + 2.0 / 3.0 * normal * normal.transpose());
+}
+
 void eliminate_swelling(double bulk, MixedResponse& response) {
   response.swelling = 0.0;
   response.tangent.row(swelling_row).setZero();
