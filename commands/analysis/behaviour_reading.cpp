@@ -42,7 +42,9 @@ solver::CellBehaviour behaviour_of(const Keywords& keywords) {
       std::ranges::find(relations, keywords.text("RELATION"), &std::pair<std::string_view, solver::Relation>::first);
   const auto deformation = std::ranges::find(kinematics, keywords.text("DEFORMATION"),
                                              &std::pair<std::string_view, solver::Kinematics>::first);
-  return {deformation->second, relation->second};
+  solver::CellBehaviour behaviour{deformation->second, relation->second};
+  behaviour.return_tolerance = keywords.real(keywords.has("RESI_INTE_RELA") ? "RESI_INTE_RELA" : "RESI_INTE");
+  return behaviour;
 }
 
 // In continua GROT_GDEP is Green and Lagrange's measure (U4.51.11), the older word for it.

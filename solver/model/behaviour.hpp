@@ -39,6 +39,8 @@ struct CellBehaviour {
   Relation relation = Relation::elastic;
   /// Elasticity adds up from step to step from the stresses of the initial state, as laws with a memory do.
   bool from_initial_state = false;
+  /// By how much of the first yield stress a point in plane stress may miss its yield surface; 0: as rounding lets it.
+  double return_tolerance = 0.0;
 
   auto operator<=>(const CellBehaviour&) const = default;
 };

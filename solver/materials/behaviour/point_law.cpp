@@ -206,8 +206,9 @@ PlasticResponse PointLaw::integrate(const PointInput& input, const PlasticPoint&
   if (input.begins)
     return (in_plane_ ? begin_von_mises_in_plane : begin_von_mises)(past.moduli, now, state, past.inelastic,
                                                                     input.inelastic);
-  return in_plane_ ? integrate_von_mises_in_plane(past.moduli, now, state, increment)
-                   : integrate_von_mises(past.moduli, now, state, increment);
+  if (!in_plane_) return integrate_von_mises(past.moduli, now, state, increment);
+  return integrate_von_mises_in_plane(past.moduli, now, state, increment,
+                                      is_reversible(behaviour_.relation) ? 0.0 : behaviour_.return_tolerance);
 }
 
 /// The strain that the law sees, less that of the command variables: of what is reversible the whole one.

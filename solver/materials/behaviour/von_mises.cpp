@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -142,8 +144,107 @@ PlasticResponse integrate_von_mises(const PlasticModuli& before, const PlasticPo
   return response;
 }
 
+namespace {
+
+/// A point in plane stress that is let flow by dp, whether that is the right amount or not. With the trial's s - X its
+/// deviator is s - 3 mu q (s - X) where q = dp / (R(p + dp) + hardness dp), and the strain across leaves no stress
+/// there.
+class FlowInPlane {
+ public:
+  FlowInPlane(const PlasticModuli& before, const PlasticPoint& now, const PlasticState& state,
+              const Vector6d& increment)
+      : now_(now),
+        state_(state),
+        strain_(as_tensor(increment)),
+        start_(stiffness_ratio(now.shear, before.shear) * deviator_of(state.stress)),
+        back_(stiffness_ratio(now.kinematic, before.kinematic) * state.back_stress),
+        pressure_(stiffness_ratio(now.bulk, before.bulk) * trace(state.stress) / 3.0) {
+    let_flow(0.0);
+  }
+
+  /// What the trial is beyond the yield surface that is reached.
+  double excess() const { return size_ - hardness_ * dp_ - radius_; }
+
+  /// Secants, first from no flow and that of a body in space; the excess is tested after each. Whether they end.
+  bool flows_until(double most_excess) {
+    double last = 0.0, last_excess = excess();
+    if (last_excess <= most_excess) return true;
+    let_flow(first_guess());
+    for (int iteration = 0; iteration < most_iterations && excess() != last_excess; ++iteration) {
+      const double here = dp_, here_excess = excess();
+      const double next = here - here_excess * (here - last) / (here_excess - last_excess);
+      if (!(next >= 0.0 && std::isfinite(next))) return false;
+      let_flow(next);
+      if (std::abs(excess()) <= most_excess) return true;
+      last = here;
+      last_excess = here_excess;
+    }
+    return false;
+  }
+
+  PlasticResponse response() const {
+    PlasticResponse response;
+    const Vector6d flow = 1.5 * share_ * relative_;
+    response.state.p = state_.p + dp_;
+    response.state.flowing = true;
+    response.state.back_stress = back_ + now_.kinematic * flow;
+    response.state.stress = deviator_ - 2.0 * now_.shear * flow;
+    response.state.stress.head<3>().array() += pressure_ + now_.bulk * trace(strain_);
+    response.state.stress[out_of_plane] = 0.0;
+    response.tangent = elastic_matrix(now_, 1.0 - 3.0 * now_.shear * share_);
+    if (double_product(relative_, strain_) >= 0.0)
+      subtract_flow(response.tangent, now_, 1.5 / size_ * relative_, 1.0 / (hardness_ + slope_) - share_);
+    release_across(response.tangent);
+    return response;
+  }
+
+ private:
+  /// As Code_Aster 17.3 has it: by a power law the first secant begins as if nothing hardened.
+  double first_guess() const {
+    if (std::holds_alternative<PowerCurve>(now_.curve)) return excess() / hardness_;
+    return plastic_increment(now_.curve, size_, hardness_, state_.p);
+  }
+
+  void let_flow(double dp) {
+    dp_ = dp;
+    std::tie(radius_, slope_) = hardening(now_.curve, state_.p + dp);
+    share_ = dp == 0.0 ? 0.0 : dp / (radius_ + hardness_ * dp);
+    const double without = stress_across(0.0);
+    strain_[out_of_plane] = -without / (stress_across(1.0) - without);
+    stress_across(strain_[out_of_plane]);
+    size_ = std::sqrt(1.5 * double_product(relative_, relative_));
+  }
+
+  double stress_across(double strain) {
+    strain_[out_of_plane] = strain;
+    deviator_ = start_ + 2.0 * now_.shear * deviator_of(strain_);
+    relative_ = deviator_ - back_;
+    return deviator_[out_of_plane] - 3.0 * now_.shear * share_ * relative_[out_of_plane] + pressure_ +
+           now_.bulk * trace(strain_);
+  }
+
+  const PlasticPoint& now_;
+  const PlasticState& state_;
+  Vector6d strain_;  ///< as a tensor
+  Vector6d start_, back_;
+  double pressure_;  ///< with which the step begins
+  double hardness_ = 3.0 * now_.shear + 1.5 * now_.kinematic;
+  double dp_ = 0.0, radius_ = 0.0, slope_ = 0.0, share_ = 0.0, size_ = 0.0;
+  Vector6d deviator_, relative_;  ///< of the trial
+};
+
+bool ends_by_secants(const HardeningCurve& curve) {
+  return std::holds_alternative<PiecewiseCurve>(curve) || std::holds_alternative<PowerCurve>(curve);
+}
+
+}  // namespace
+
 PlasticResponse integrate_von_mises_in_plane(const PlasticModuli& before, const PlasticPoint& now,
-                                             const PlasticState& state, const Vector6d& increment) {
+                                             const PlasticState& state, const Vector6d& increment, double tolerance) {
+  if (tolerance > 0.0 && ends_by_secants(now.curve)) {
+    FlowInPlane flow(before, now, state, increment);
+    if (flow.excess() > 0.0 && flow.flows_until(tolerance * hardening(now.curve, 0.0).first)) return flow.response();
+  }
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
   Vector6d strain = increment;

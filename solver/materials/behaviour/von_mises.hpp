@@ -52,8 +52,10 @@ Vector6d elastic_stress(const PlasticModuli& moduli, const Vector6d& strain);
 Vector6d elastic_stress_in_plane(const PlasticModuli& moduli, const Vector6d& strain);
 
 /// integrate_von_mises() without stress across the plane: the strain zz is an unknown (the row and column of zz of the
-/// tangent are zero).
+/// tangent are zero). With a `tolerance` (of the first yield stress) what flows is found as Code_Aster 17.3 finds it,
+/// by secants that end there (RESI_INTE), but with saturating exponentials; without, as exactly as rounding lets it.
 PlasticResponse integrate_von_mises_in_plane(const PlasticModuli& before, const PlasticPoint& now,
-                                             const PlasticState& state, const Vector6d& increment);
+                                             const PlasticState& state, const Vector6d& increment,
+                                             double tolerance = 0.0);
 
 }  // namespace comma::solver

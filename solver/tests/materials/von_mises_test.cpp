@@ -151,6 +151,42 @@ TEST_CASE("plane stress has no stress across, and pulls like a bar") {
   CHECK(response.state.stress[0] == exactly(yield + slope * (0.01 - yield / young)));
 }
 
+TEST_CASE("what flows in plane stress is what the secants of Code_Aster 17.3 leave at a tolerance") {
+  Plasticity plasticity;
+  plasticity.linear = LinearHardening{100.0, 20.0};
+  TabulatedFunction curve;
+  curve.parameter = "EPSI";
+  curve.x = {0.02, 0.04, 0.08, 0.2};
+  curve.y = {20.0, 24.0, 27.0, 30.0};
+  plasticity.traction = TractionHardening{{}, {curve}, {}, {}};
+  plasticity.power = PowerHardening{20.0, 1.0, 5.0};
+  Vector6d increment;
+  increment << 0.03, -0.01, 0.0, 0.03, 0.0, 0.0;
+  const auto flowed = [&](Relation relation, double tolerance) {
+    const PlasticPoint point = plastic_point(IsotropicElasticity{1000.0, 0.3}, plasticity, relation, MaterialPoint());
+    return integrate_von_mises_in_plane(point, point, {}, increment, tolerance);
+  };
+  struct Figures {
+    Relation relation;
+    double coarse, fine;  // at 1e-2 and 1e-6
+  };
+  for (const auto& [relation, coarse, fine] :
+       {Figures{Relation::isotropic_linear, 0.01378917016387164, 0.01376747756876287},
+        Figures{Relation::isotropic_traction, 0.01231392488780273, 0.01229836297709837},
+        Figures{Relation::isotropic_power, 0.002674504480376959, 0.002661528085788677}}) {
+    CHECK(flowed(relation, 1e-2).state.p == Approx(coarse).epsilon(1e-13));
+    CHECK(flowed(relation, 1e-6).state.p == Approx(fine).epsilon(1e-13));
+    CHECK(flowed(relation, 1e-14).state.p == Approx(flowed(relation, 0.0).state.p).epsilon(1e-12));
+    const Matrix6d exact = flowed(relation, 0.0).tangent;
+    CHECK((flowed(relation, 1e-14).tangent - exact).norm() < 1e-11 * exact.norm());
+  }
+  const Vector6d stress = flowed(Relation::isotropic_linear, 1e-2).state.stress;
+  CHECK(stress[0] == Approx(18.6492112383637).epsilon(1e-13));
+  CHECK(stress[1] == Approx(0.9547906100400159).epsilon(1e-13));
+  CHECK(stress[2] == 0.0);
+  CHECK(stress[3] == Approx(6.635407735621383).epsilon(1e-13));
+}
+
 TEST_CASE("when the modulus changes, the elastic strain stays") {
   const PlasticPoint before = point_of(Relation::isotropic_linear);
   PlasticPoint now = before;
