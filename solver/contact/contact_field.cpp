@@ -79,10 +79,11 @@ void write_state(const NodeContact& contact, Positions positions, double* row) {
   row[gli] = contact.slip.norm();
 }
 
-/// Of a node that faces nothing: how far it is from the nearest place, if that is known.
+/// Of a node that faces nothing: how far it is from the nearest place, if that is known. One that counts as open tells
+/// nothing.
 void write_apart(const NodeContact& contact, Positions positions, Unpaired unpaired, double* row) {
   row[cont] = static_cast<double>(unpaired);
-  row[jeu] = contact.gap;
+  row[jeu] = unpaired == Unpaired::open ? 0.0 : contact.gap;
   if (contact.has_foot) write_places(contact, positions, row);
 }
 
@@ -156,7 +157,7 @@ NodalField contact_field(std::span<const ContactPair> pairs, std::span<const dou
   for (std::size_t k = 0; k < pairs.size(); ++k)
     contacts.push_back(
         {.pair = pairs[k],
-         .gap = is_faced(pairs[k]) ? gaps[k] : 0.0,
+         .gap = gaps[k],
          .normal_force = multipliers[static_cast<Eigen::Index>(k)],
          .closed = multipliers[static_cast<Eigen::Index>(k)] > 0.0,
          .has_foot = pairs[k].status == PairingStatus::watched || multipliers[static_cast<Eigen::Index>(k)] > 0.0});

@@ -113,7 +113,7 @@ struct ContactDefinition {
   double restless_tolerance = 0.0;
   double joint_geometry_tolerance = 1e-6;  ///< RESI_GEOM where iterations are joint
   /// ALGO_RESO_CONT='NEWTON': penalties that depths adapt are so until they stay, for each geometry, otherwise once a
-  /// geometry; of bilateral zones, points that a step closes may open again in it, otherwise none does.
+  /// geometry; of bilateral zones, points may open again until none changes, otherwise none does.
   bool contact_by_newton = false;
   /// RESI_FROT where friction alone is by Newton's method (ALGO_RESO_CONT and ALGO_RESO_GEOM 'POINT_FIXE'); 0: not
   /// known.

@@ -39,14 +39,14 @@ NodalField boundary_pressure(const Mesh& mesh, const NodalField& stresses, std::
           "wrong-surface",
           fmt::format("{} is a cell of the body itself ({}), not of its boundary", mesh.cell_name(cell), name_of(type)),
           "name a group of boundary cells");
-  NodalField pressure = empty_nodal_field(mesh, "PRES_R", {"PRES", "CISA", "VX", "VY", "VZ"});
-  if (mesh.dimension == 2) pressure = empty_nodal_field(mesh, "PRES_R", {"PRES", "CISA", "VX", "VY"});
+  NodalField pressure = mesh.dimension == 2 ? empty_nodal_field(mesh, "PRES_R", {"PRES", "CISA", "VX", "VY"})
+                                            : empty_nodal_field(mesh, "PRES_R", {"PRES"});
   const std::size_t width = pressure.components.size();
   for (const auto& [node, normal] : nodal_normals(mesh, cells, positions)) {
     const Eigen::Vector3d traction = stress_at(stresses, columns, node) * normal;
     const double across = normal.dot(traction);
     const Eigen::Vector3d along = traction - across * normal;
-    const std::array<double, 5> values = {across, along.norm(), along[0], along[1], along[2]};
+    const std::array<double, 4> values = {across, along.norm(), along[0], along[1]};
     std::copy_n(values.begin(), width,
                 pressure.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(node) * width));
   }

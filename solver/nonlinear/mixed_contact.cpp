@@ -80,10 +80,8 @@ void MixedContact::face(Positions positions, double time, double margin) {
   adapted_.face(definition_, points(), mesh_);
   apply_penalties();
   share_friction();
-  if (!started_) {
-    start_statuses(jumps(reference_));
-    began_closed_ = closed_points();
-  }
+  if (!started_) start_statuses(jumps(reference_));
+  if (!started_ || (!step_begins_ && !definition_.joint_iterations)) began_closed_ = closed_points();
   started_ = true;
   hold_points();
   if (secants_.predicts) begin_secants();
@@ -116,7 +114,7 @@ bool MixedContact::is_faced_again() const {
   return definition_.geometry_update == GeometryUpdate::automatic && definition_.max_geometry_updates > 1;
 }
 
-/// Code_Aster 17.3, in ssnv104e and in scenes of two blocks: Newton's method on contact holds what a step begins with.
+/// Code_Aster 17.3, in scenes of two blocks: Newton's method on contact holds what is closed once none changes.
 void MixedContact::hold_points() {
   if (!definition_.contact_by_newton) return;
   for (std::size_t p = 0; p < points().size(); ++p)

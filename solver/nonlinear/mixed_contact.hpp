@@ -259,7 +259,7 @@ class MixedContact {
   Eigen::VectorXd start_;               ///< multipliers when the step began
   MultiplierCourse course_;             ///< of accepted steps
   Eigen::VectorXd rates_;               ///< of multipliers, in the last step that was accepted
-  std::vector<char> began_closed_;      ///< points, when the step began
+  std::vector<char> began_closed_;      ///< points, when the step or its geometry began
   bool step_begins_ = false;            ///< and no point has been faced in it
   std::vector<std::size_t> held_back_;  ///< points that may not close yet
   std::unique_ptr<SchurComplement> schur_;

@@ -61,6 +61,14 @@ TEST_CASE("In the mixed formulation a node that faces nothing tells how far it i
   CHECK(at(1, "PT_X") == 0.0);
 }
 
+TEST_CASE("In the discrete formulation a node that is left out has no gap") {
+  const std::vector<Vector3d> places(1, Vector3d(1, 2, 3));
+  const std::vector<NodeContact> contacts = {{.pair = pair(0, PairingStatus::excluded), .has_foot = false}};
+  const NodalField field = contact_field(contacts, 1, places, 0.0, Unpaired::open);
+  CHECK(field.at(0, field.component("CONT")) == 0.0);
+  CHECK(field.at(0, field.component("JEU")) == 0.0);
+}
+
 TEST_CASE("A node that one zone holds is not unpaired because another zone does not see it") {
   const std::vector<Vector3d> places(1, Vector3d::Zero());
   const std::vector<double> gaps = {0.0, absent};

@@ -70,4 +70,12 @@ TEST_CASE("the traction along a boundary is what the stress has beside the press
   CHECK(pressure.at(3, 3) == Approx(0.0).margin(1e-15));
 }
 
+TEST_CASE("in space there is the pressure alone", "[fields]") {
+  Mesh mesh = two_edges();
+  mesh.dimension = 3;
+  const NodalField stress{"SIEF_R", {"SIXX", "SIYY"}, std::vector<double>(8, -3.0)};
+  CHECK(boundary_pressure(mesh, stress, std::array<int, 0>{}, places(mesh)).components ==
+        std::vector<std::string>{"PRES"});
+}
+
 }  // namespace boundary_pressure_test
