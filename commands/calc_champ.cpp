@@ -135,6 +135,22 @@ void warn_of_elastic_thickness(const Call& call, const solver::StaticProblem& pr
   }
 }
 
+// EPSP_... and ETOT_... are those of small strains whatever DEFORMATION says.
+void warn_of_small_measures(const Call& call, const solver::StaticProblem& problem, Context& context) {
+  const auto is_large = [](const solver::CellBehaviour& behaviour) {
+    return behaviour.kinematics != solver::Kinematics::small && behaviour.kinematics != solver::Kinematics::updated;
+  };
+  if (!problem.behaviours || std::ranges::none_of(*problem.behaviours, is_large)) return;
+  for (const std::string& name : wanted_fields(call))
+    if (name.starts_with("EPSP_") || name.starts_with("ETOT_"))
+      context.diagnostics.alarm(
+          "small-measure",
+          fmt::format("CALC_CHAMP: {} takes the linear strain and SIEF_ELGA, which in large strains do not belong "
+                      "together",
+                      name),
+          call.span, "EPSG_ELGA is the strain of Green and Lagrange; internal variables tell what has flowed");
+}
+
 bool has_total_strains(const std::vector<std::string>& names) {
   return std::ranges::any_of(names, [](const std::string& name) {
     return name.starts_with("EPSI_") || name.starts_with("EPME_") || name.starts_with("EPEQ_") ||
@@ -163,6 +179,7 @@ void add_fields(const Call& call, Context& context, ResultConcept& data) {
   for (const std::string& name : empty)
     if (!filled.contains(name)) warn_of_empty_field(name, call, context);
   if (!cells) computation.warn_of_limited_sources(context.diagnostics);
+  warn_of_small_measures(call, computation.problem(), context);
   if (has_total_strains(wanted_fields(call))) warn_of_elastic_thickness(call, computation.problem(), context);
 }
 

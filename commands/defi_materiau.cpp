@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "commands/commands.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
@@ -168,6 +170,20 @@ solver::TractionHardening traction_hardening(const Keywords& law) {
   return hardening;
 }
 
+// Young's modulus is taken from the curve: another one would be ignored.
+void check_first_slope(const Call& call, const solver::TractionHardening& hardening) {
+  constexpr double as_good_as_equal = 0.01;  // figures are written with few digits (Code_Aster 17.3 allows as much)
+  if (!call.has("ELAS") || !call.factor("ELAS").has("E") || hardening.curves.size() != 1) return;
+  const double young = call.factor("ELAS").real("E");
+  const double slope = hardening.curves.front().y.front() / hardening.curves.front().x.front();
+  if (std::abs(young - slope) <= as_good_as_equal * young) return;
+  throw DiagnosticError(
+      "wrong-function",
+      fmt::format("DEFI_MATERIAU/TRACTION: the curve begins with the slope {:g}, which is not E of ELAS, {:g}", slope,
+                  young),
+      call.factor("TRACTION").span_of("SIGM"), "the first point of the curve is the end of elasticity: SIGM = E EPSI");
+}
+
 solver::PowerHardening power_hardening(const Keywords& law) {
   return {property(law, "SY"), property(law, "A_PUIS"), property(law, "N_PUIS")};
 }
@@ -207,7 +223,10 @@ void add_plasticity(const Call& call, solver::Plasticity& plasticity) {
     plasticity.asymmetric = solver::AsymmetricHardening{{property(law, "DT_SIGM_EPSI"), property(law, "SY_T")},
                                                         {property(law, "DC_SIGM_EPSI"), property(law, "SY_C")}};
   }
-  if (call.has("TRACTION")) plasticity.traction = traction_hardening(call.factor("TRACTION"));
+  if (call.has("TRACTION")) {
+    plasticity.traction = traction_hardening(call.factor("TRACTION"));
+    check_first_slope(call, *plasticity.traction);
+  }
   for (const char* keyword : {"ECRO_PUIS", "ECRO_PUIS_FO"})
     if (call.has(keyword)) plasticity.power = power_hardening(call.factor(keyword));
   for (const char* keyword : {"ECRO_NL", "ECRO_NL_FO"})

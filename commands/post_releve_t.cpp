@@ -164,11 +164,16 @@ NodeValues read_by_cells(const Keywords& action, const FieldSource& source) {
   return values;
 }
 
+// Nothing acts across the plane of plane bodies.
+bool is_across_the_plane(const solver::NodalField& field, const std::string& name) {
+  return name == "DZ" && field.component("DZ") < 0 && field.component("DX") >= 0;
+}
+
 // The vector of forces that components belong to: DX, DY, DZ, or what else ends so (RX, RNX, FX ...).
 std::array<std::string, 3> force_components(const Keywords& action, const solver::NodalField& field) {
   std::string stem;
   for (const std::string& name : action.texts("RESULTANTE")) {
-    component_of(action, field.components, name, "RESULTANTE");
+    if (!is_across_the_plane(field, name)) component_of(action, field.components, name, "RESULTANTE");
     const std::string own = name.substr(0, name.size() - 1);
     const bool is_axis = name.size() > 1 && name.find_last_of("XYZ") == name.size() - 1 && !own.ends_with('X') &&
                          !own.ends_with('Y') && !own.ends_with('Z');
@@ -206,6 +211,10 @@ void sum(Table& table, const Keywords& action, const NodeValues& reading) {
   const bool turned = action.text("REPERE") == "UTILISATEUR";
   const auto& field = turned ? solver::in_axes(reading.field, reading.nodes, [&](int) { return axes; }) : reading.field;
   for (const std::string& name : action.texts("RESULTANTE")) {
+    if (is_across_the_plane(field, name)) {
+      row.emplace_back(name, 0.0);
+      continue;
+    }
     const int component = component_of(action, field.components, name, "RESULTANTE");
     double total = 0.0;
     bool any = false;

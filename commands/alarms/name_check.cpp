@@ -11,6 +11,7 @@
 
 #include "commands/alarms/known_names.hpp"
 #include "commands/concepts.hpp"
+#include "commands/fields/field_reading.hpp"
 #include "interpreter/item_span.hpp"
 
 namespace comma::commands {
@@ -249,7 +250,11 @@ class NameCheck {
     known.erase(std::unique(known.begin(), known.end()), known.end());
     // Relations also speak of displacements along the normal.
     if (site.label.find("/LIAISON_") != std::string::npos) known.emplace_back("DNOR");
-    const auto exists = [&](const std::string& name) { return has_component(known, name); };
+    // What plane bodies lack is left out of tables, and is 0 in sums.
+    const bool is_optional = site.keyword.name == "RESULTANTE" || site.label.starts_with("CREA_TABLE/RESU");
+    const auto exists = [&](const std::string& name) {
+      return has_component(known, name) || (is_optional && is_out_of_plane(name));
+    };
     const auto hint = [&](const std::string& name) { return hint_for(name, known, "component"); };
     check_each(site, "unknown-component", fmt::format("{} has no component", fmt::join(site.fields, ", ")), exists,
                hint);

@@ -52,19 +52,19 @@ void require_no_others_that_follow(const Keywords& excitation, const solver::Loa
       excitation.span_of("CHARGE"), "leave out TYPE_CHARGE='SUIV' where displacements are small");
 }
 
-// TYPE_CHARGE='SUIV': pressures follow, and rigid bodies turn; dead forces and displacements of single nodes are the
-// same on any geometry.
+// TYPE_CHARGE='SUIV': pressures follow, and rigid bodies turn; dead forces, displacements of single nodes and other
+// relations, as they were written, are the same on any geometry.
 void add_following(const Keywords& excitation, const solver::AppliedLoad& applied, solver::StaticProblem& problem) {
   const solver::Load& load = *applied.load;
-  const auto is_shared = [](const solver::LinearRelation& relation) {
-    return relation.terms.size() > 1 && relation.rigid_link < 0;
+  const auto moves_apart = [](const solver::LinearRelation& relation) {
+    return relation.terms.size() > 1 && relation.rigid_link < 0 && (relation.value != 0.0 || relation.function);
   };
-  if (std::ranges::any_of(load.relations, is_shared)) {
+  if (std::ranges::any_of(load.relations, moves_apart)) {
     throw DiagnosticError("unsupported",
                           excitation.concept_of("CHARGE")->name +
-                              " has relations between displacements other than LIAISON_SOLIDE, which comma does not "
-                              "let follow large rotations yet",
-                          excitation.span_of("CHARGE"), "leave out TYPE_CHARGE='SUIV' where rotations are small");
+                              " has relations between displacements with a value that is not zero, which do not "
+                              "follow a body",
+                          excitation.span_of("CHARGE"), "make them a load of their own, without TYPE_CHARGE='SUIV'");
   }
   require_no_others_that_follow(excitation, load);
   auto following = std::make_shared<solver::Load>();

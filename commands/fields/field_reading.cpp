@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "commands/fields/field_types.hpp"
@@ -78,21 +79,36 @@ std::vector<int> chosen_components(const Keywords& keywords, const std::vector<s
   return chosen;
 }
 
+namespace {
+
+bool is_variable(const std::string& name) {
+  return name.size() > 1 && name[0] == 'V' &&
+         std::ranges::all_of(name.substr(1), [](char c) { return c >= '0' && c <= '9'; });
+}
+
+}  // namespace
+
+bool is_out_of_plane(const std::string& name) {
+  constexpr std::array motions = {"DZ", "DRX", "DRY", "DRZ"};
+  return std::ranges::count(motions, name) != 0 ||
+         (name.size() == 4 && (name.starts_with("SI") || name.starts_with("EP")) &&
+          (name.ends_with("XZ") || name.ends_with("YZ")));
+}
+
 std::vector<std::string> known_components(const Keywords& keywords, const std::vector<std::string>& components,
                                           interpreter::Diagnostics& diagnostics) {
-  const auto is_variable = [](const std::string& name) {
-    return name.size() > 1 && name[0] == 'V' &&
-           std::ranges::all_of(name.substr(1), [](char c) { return c >= '0' && c <= '9'; });
-  };
   const bool of_variables = std::ranges::all_of(components, is_variable);
   std::vector<std::string> known, missing;
   for (const std::string& name : keywords.texts("NOM_CMP"))
     (std::ranges::count(components, name) != 0 ? known : missing).push_back(name);
   for (const std::string& name : missing)
-    if (known.empty() || !of_variables || !is_variable(name)) component_of(keywords, components, name);
+    if (known.empty() || !(of_variables ? is_variable(name) : is_out_of_plane(name)))
+      component_of(keywords, components, name);
   if (!missing.empty())
-    diagnostics.alarm("unknown-component", fmt::format("no law there has {}: left out", fmt::join(missing, ", ")),
-                      keywords.span_of("NOM_CMP"), fmt::format("the field has {}", fmt::join(components, ", ")));
+    diagnostics.alarm(
+        "unknown-component",
+        fmt::format("no {} there has {}: left out", of_variables ? "law" : "element", fmt::join(missing, ", ")),
+        keywords.span_of("NOM_CMP"), fmt::format("the field has {}", fmt::join(components, ", ")));
   return known;
 }
 

@@ -46,9 +46,11 @@ std::string table_cell(const solver::Mesh& mesh, int cell);
 /// The indices of the components that NOM_CMP or NOM_VARI names, all when it is not given. Throws DiagnosticError
 /// `unknown-component`.
 std::vector<int> chosen_components(const interpreter::Keywords& keywords, const std::vector<std::string>& components);
+/// Whether only bodies in space have the component, or plates and beams.
+bool is_out_of_plane(const std::string& name);
 /// The components that NOM_CMP names and the field has. Of internal variables, V1, V2 ..., there are as many as the
-/// laws in the field have: others are left out, with an alarm. Throws DiagnosticError `unknown-component` for other
-/// names, and where none is left.
+/// laws in the field have: others are left out, with an alarm, and so is what only bodies in space have (DZ, SIXZ ...).
+/// Throws DiagnosticError `unknown-component` for other names, and where none is left.
 std::vector<std::string> known_components(const interpreter::Keywords& keywords,
                                           const std::vector<std::string>& components,
                                           interpreter::Diagnostics& diagnostics);

@@ -63,10 +63,11 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
 
   void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                               double* values) const override {
-    assemble(u, state, column_starts, values, &PointLaw::begin);
+    assemble(u, state, column_starts, values, law_.is_large() ? &PointLaw::begin_as_it_was : &PointLaw::begin);
   }
   void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
-    add_law_forces(u, state, forces, &PointLaw::begin);
+    add_law_forces(u, state, forces, law_.is_large() ? &PointLaw::begin_as_it_was : &PointLaw::begin);
+    if (law_.is_large()) add_change_of_variables(u, state, forces);
   }
   void add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
     add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
@@ -313,6 +314,19 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   void add_law_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces, Respond how) const {
     add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
       return respond(element, g, x, gradient, state, how).stress;
+    });
+  }
+
+  /// What the command variables have changed since the last step, on the initial geometry.
+  void add_change_of_variables(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const {
+    const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(u.size());
+    add_forces(at_rest, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d&) {
+      const Constants constants(*this, element, g, x, state);
+      const auto& sample = this->samples_[static_cast<std::size_t>(g)];
+      const Eigen::Matrix3d gradient = Base::gradient_of_displacement(
+          Base::relative_displacements(u, this->dofs_of(element)), sample, Base::locate(x, sample));
+      return law_.change_of_variables(
+          {gradient, constants.inelastic, *constants.plastic, past_[point_index(element, g)]});
     });
   }
 

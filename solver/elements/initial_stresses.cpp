@@ -75,6 +75,7 @@ void Assembler::resume(const Eigen::VectorXd& u, const ElementField* stresses, c
   for (const auto& block : blocks_->list) {
     if (!block->has_memory()) {
       if (stresses != nullptr) take_initial_stresses(*block, u, *stresses);
+      block->resume(u, state_, {}, {});
       continue;
     }
     block->resume(u, state_, read_stresses(*block, stresses, *model_.mesh),

@@ -33,13 +33,32 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
 
   void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                      double* values) const override {
-    Stiffness k;
-    std::array<int, size> dofs;
-    for (int element = 0; element < this->map_.element_count(); ++element) {
-      this->map_.dofs(element, dofs.data());
-      tangent(element, Base::relative_displacements(u, dofs), state, k);
-      this->map_.add(element, k.data(), column_starts, values);
-    }
+    add_tangents(u, state, state, column_starts, values);
+  }
+
+  /// Where a step begins, what the command variables have changed pushes on the initial geometry, and what stresses add
+  /// to the tangent is as it was: Code_Aster 17.3 takes both so.
+  void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                              double* values) const override {
+    add_tangents(u, state, has_moved(u) ? state : earlier_, column_starts, values);
+  }
+  void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
+    if (has_moved(u)) return add_internal_forces(u, state, forces);
+    add_internal_forces(u, earlier_, forces);
+    const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(u.size());
+    this->add_variable_forces(at_rest, earlier_, forces);
+    std::vector<long double> now(forces.size(), 0.0L);
+    this->add_variable_forces(at_rest, state, now);
+    for (std::size_t i = 0; i < forces.size(); ++i) forces[i] -= now[i];
+  }
+  void accept(const Eigen::VectorXd& u, const VariableState& state) override {
+    if (state.empty()) return;
+    earlier_ = state;
+    earlier_displacements_ = u;
+  }
+  void resume(const Eigen::VectorXd& u, const VariableState& state, std::span<const double>,
+              std::span<const double>) override {
+    accept(u, state);
   }
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
@@ -142,7 +161,24 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     StrainRow row(int a) const { return Base::green_lagrange_row(gradient, sample, point, a); }
   };
 
-  void tangent(int element, const Displacements& u, const VariableState& state, Stiffness& k) const {
+  bool has_moved(const Eigen::VectorXd& u) const {
+    return earlier_displacements_.size() != u.size() || earlier_displacements_ != u;
+  }
+
+  /// `of_stresses`: the command variables of the stresses that the tangent has a part of.
+  void add_tangents(const Eigen::VectorXd& u, const VariableState& state, const VariableState& of_stresses,
+                    std::span<const int> column_starts, double* values) const {
+    Stiffness k;
+    std::array<int, size> dofs;
+    for (int element = 0; element < this->map_.element_count(); ++element) {
+      this->map_.dofs(element, dofs.data());
+      tangent(element, Base::relative_displacements(u, dofs), state, of_stresses, k);
+      this->map_.add(element, k.data(), column_starts, values);
+    }
+  }
+
+  void tangent(int element, const Displacements& u, const VariableState& state, const VariableState& of_stresses,
+               Stiffness& k) const {
     const Coordinates x = this->coordinates(element);
     k.setZero();
     std::array<StrainRow, Nodes> rows;
@@ -150,11 +186,14 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       const Deformed at(*this, element, g, x, u, state);
       for (int a = 0; a < Nodes; ++a) rows[a] = at.row(a);
       Base::add_material(*at.behaviour.law, at.point.weight, rows, k);
-      Base::add_geometric(at.point, at.stress, k);
+      Base::add_geometric(at.point, Deformed(*this, element, g, x, u, of_stresses).stress, k);
     }
     k.template triangularView<Eigen::StrictlyUpper>() = k.transpose();
     make_translation_exact<Nodes, Dim>(k, Base::invariant_directions());
   }
+
+  VariableState earlier_;  ///< where the step began
+  Eigen::VectorXd earlier_displacements_;
 };
 
 /// An elastic block of continua, in small or large strains as the behaviour of its cells has it.

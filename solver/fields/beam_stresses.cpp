@@ -26,17 +26,17 @@ BeamSection section_of(const FieldInput& input, int cell, int point, int count) 
               fmt::format("the bar or beam on cell {} has no cross-section", input.model.mesh->cell_name(cell)));
 }
 
-/// A field with `names` on the bars and beams: `write(cell, section, forces, target)` at each node.
+/// A field with `names` on the bars and beams, on none where the forces have no N: `write(cell, section, forces,
+/// target)` at each node.
 template <class Write>
 ElementField on_members(const FieldInput& input, const ElementField& forces, std::string quantity,
                         std::vector<std::string> names, Write&& write) {
   std::array<int, 6> columns;
   for (int i = 0; i < 6; ++i) columns[i] = forces.component(beam_force_names[i]);
-  if (columns[0] < 0) throw Error("incompatible-field", "the field of section forces has no component N");
   ElementField result{std::move(quantity), forces.support, std::move(names), {0}, {}};
   const std::size_t width = result.components.size();
   for (int cell = 0; cell < input.model.mesh->cell_count(); ++cell) {
-    const int points = is_slender(input.model.formulations[cell]) ? forces.points(cell) : 0;
+    const int points = columns[0] >= 0 && is_slender(input.model.formulations[cell]) ? forces.points(cell) : 0;
     result.starts.push_back(result.starts.back() + points);
     for (int point = 0; point < points; ++point) {
       const auto force = [&](int i) {

@@ -15,11 +15,11 @@
 
 namespace comma::solver {
 
-void FieldComputation::require_small_strains(std::string_view name) const {
+void FieldComputation::require_added_strains(std::string_view name) const {
   if (problem_.behaviours && std::ranges::any_of(*problem_.behaviours, [](const CellBehaviour& each) {
-        return each.kinematics != Kinematics::small;
+        return each.kinematics != Kinematics::small && each.kinematics != Kinematics::updated;
       }))
-    throw Error("unsupported", fmt::format("the field {} is known for small strains only", name));
+    throw Error("unsupported", fmt::format("{} is known for small strains and PETIT_REAC only", name));
 }
 
 Field FieldComputation::elastic_energy(std::size_t step) {
@@ -139,9 +139,8 @@ void FieldComputation::know_earlier(const std::string& name, std::size_t step) {
   move_to(step);
 }
 
-// The work of stresses adds up from step to step.
+// The work of stresses adds up from step to step, in large strains too that of Cauchy's stress on the linear strain.
 Field FieldComputation::total_energy(std::size_t step) {
-  require_small_strains("ETOT_ELGA");
   know_earlier("ETOT_ELGA", step);
   const ElementField *stress_before = nullptr, *strain_before = nullptr, *before = nullptr;
   const NodalField* displacement_before = nullptr;
@@ -182,6 +181,7 @@ Field FieldComputation::total_energy_of_cells(std::size_t step) {
 // Where hardening is isotropic what is stored and what flow has taken up follow from the state; of all else the work
 // adds up from step to step (ENER_TOTALE, U4.81.22).
 Field FieldComputation::energy_of_state(std::size_t step) {
+  require_added_strains("ENER_TOTALE");
   Field energies = whole_field("ETOT_ELEM", step);
   if (!some_flow()) return energies;
   const Field flow = hardening_energy_density(input(), whole_field("VARI_ELGA", step), *problem_.behaviours);

@@ -346,8 +346,8 @@ Field FieldComputation::mechanical_strains(std::size_t step) {
   return strains(input(), displacement(step), StrainKind::mechanical);
 }
 
+// The linear strain less what the stress holds up elastically, in large strains too.
 Field FieldComputation::plastic_strains_at_points(std::size_t step) {
-  require_small_strains("EPSP_ELGA");
   if (assembler_.imposes_strains())
     throw Error("unsupported", "EPSP_ELGA is not known beside initial strains (PRE_EPSI)");
   return plastic_strains(input(), displacement(step), stresses_beside_plates(step));

@@ -117,7 +117,7 @@ class FieldComputation {
   Field command_variables(std::size_t step);
   Field stress_criteria_at_points(std::size_t step);
   Field stress_criteria_at_nodes(std::size_t step);
-  void require_small_strains(std::string_view name) const;
+  void require_added_strains(std::string_view name) const;
   std::vector<int> cells_in_green_strains() const;
   void require_elastic_patterns(const ElementField& stresses) const;
   bool has_bars_with_memory() const;

@@ -47,9 +47,9 @@ class LineTrials {
   double near_ = 0.0, far_ = std::numeric_limits<double>::infinity();  ///< between which the work changes sign
 };
 
+/// What is about zero becomes `excluded`, though that be below `smallest`.
 double admissible(const LineSearch& options, double rho) {
-  rho = std::clamp(rho, options.smallest, options.largest);
-  return std::abs(rho) < options.excluded ? options.excluded : rho;
+  return std::abs(rho) < options.excluded ? options.excluded : std::clamp(rho, options.smallest, options.largest);
 }
 
 }  // namespace

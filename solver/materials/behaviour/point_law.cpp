@@ -372,21 +372,41 @@ PointResponse PointLaw::respond_elastically(const PointInput& input) const {
   return respond_with(input, elastic);
 }
 
-PointResponse PointLaw::begin(const PointInput& input) const {
+/// Whether nothing has moved since the step began but what the command variables say.
+bool PointLaw::is_start(const PointInput& input) const {
   const PointPast& past = input.past;
-  const bool is_known = behaviour_.relation != Relation::hyperelastic && !is_reversible(behaviour_.relation) &&
-                        behaviour_.kinematics != Kinematics::multiplicative;
   const bool has_changed = input.inelastic != past.inelastic || input.constants.shear != past.moduli.shear ||
                            input.constants.bulk != past.moduli.bulk;
-  if (!is_known || !has_changed || past.moduli.shear == 0.0 || input.gradient != past.gradient) return respond(input);
+  return behaviour_.relation != Relation::hyperelastic && has_changed && past.moduli.shear != 0.0 &&
+         input.gradient == past.gradient;
+}
+
+bool PointLaw::flows_on() const {
+  return !is_reversible(behaviour_.relation) && behaviour_.kinematics != Kinematics::multiplicative;
+}
+
+PointResponse PointLaw::begin(const PointInput& input) const {
+  if (!is_start(input) || !flows_on()) return respond(input);
   PointInput beginning = input;
   beginning.begins = true;
   return respond(beginning);
 }
 
-Vector6d PointLaw::stress_of_variables(const PointInput& input) const {
-  if (behaviour_.relation == Relation::hyperelastic || input.inelastic.isZero(0.0)) return Vector6d::Zero();
-  return (in_plane_ ? elastic_stress_in_plane : elastic_stress)(input.constants, input.inelastic);
+PointResponse PointLaw::begin_as_it_was(const PointInput& input) const {
+  if (!is_start(input)) return respond(input);
+  PointPast past = input.past;
+  if (flows_on()) past.inelastic.setZero();  // of an equal strain before and now nothing changes the stress
+  return respond({input.gradient, past.inelastic, input.constants, past, flows_on()});
+}
+
+Vector6d PointLaw::change_of_variables(const PointInput& input) const {
+  if (!is_start(input)) return Vector6d::Zero();
+  return held_up(input.past.moduli, input.past.inelastic) - stress_of_variables(input);
+}
+
+Vector6d PointLaw::held_up(const PlasticModuli& moduli, const Vector6d& inelastic) const {
+  if (behaviour_.relation == Relation::hyperelastic || inelastic.isZero(0.0)) return Vector6d::Zero();
+  return (in_plane_ ? elastic_stress_in_plane : elastic_stress)(moduli, inelastic);
 }
 
 double PointLaw::flow_between(const std::array<double, most_variables>& before,

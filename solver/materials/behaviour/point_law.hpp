@@ -81,9 +81,15 @@ class PointLaw {
   /// changed is taken up elastically (begin_von_mises). Where the point has moved already, or is of the multiplicative
   /// split, as respond().
   PointResponse begin(const PointInput& input) const;
+  /// The same in large strains, where what the command variables have changed pushes on the initial geometry
+  /// (change_of_variables()): the stress is as it was, and so is what it adds to the tangent.
+  PointResponse begin_as_it_was(const PointInput& input) const;
+  /// What they have changed of the stress (as PointResponse::stress, on the initial geometry); zero where
+  /// begin_as_it_was() is respond().
+  Vector6d change_of_variables(const PointInput& input) const;
   /// The stress (as PointResponse::stress) with which the elastic material would hold up the strain of the command
   /// variables.
-  Vector6d stress_of_variables(const PointInput& input) const;
+  Vector6d stress_of_variables(const PointInput& input) const { return held_up(input.constants, input.inelastic); }
 
   /// The same as respond() for a point that goes on as in the last step, flowing where it flowed, `ratio` times as
   /// much: linear in the strain (R5.03.81; after Oliver, Huespe and Cante, Computer Methods in Applied Mechanics and
@@ -102,6 +108,9 @@ class PointLaw {
   double elastic_energy(const PointPast& at, const PlasticPoint& constants) const;
 
  private:
+  bool is_start(const PointInput& input) const;
+  bool flows_on() const;
+  Vector6d held_up(const PlasticModuli& moduli, const Vector6d& inelastic) const;
   PointResponse respond_with(const PointInput& input, const PlasticPoint& now) const;
   int own_count() const;
   PlasticState state_of(const PointPast& past) const;

@@ -41,6 +41,22 @@ TEST_CASE("the line search keeps to its bounds and comes back from where the law
                     "nowhere");
 }
 
+TEST_CASE("a way that would be about zero is RHO_EXCL, one that would lead back RHO_MIN") {
+  const LineSearch options{.max_iterations = 1};
+  const auto second_trial = [&](double zero) {
+    std::vector<double> trials;
+    search_line(options, 1.0, [&](double rho) {
+      trials.push_back(rho);
+      return 1.0 - rho / zero;
+    });
+    return trials.at(1);
+  };
+  CHECK(second_trial(0.004) == options.excluded);
+  CHECK(second_trial(0.0095) == options.smallest);
+  CHECK(second_trial(-0.2) == options.smallest);
+  CHECK(second_trial(0.02) == exactly(0.02));
+}
+
 TEST_CASE("MIXTE goes three times as far until work changes sign, and then back, no nearer than halfway") {
   LineSearch options{.bracketed = true, .tolerance = 1e-6, .max_iterations = 5, .largest = 100.0};
   std::vector<double> trials;
