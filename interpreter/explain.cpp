@@ -23,15 +23,11 @@ struct Place {
   std::string conditions;
 };
 
-void collect(const LevelPage& level, const std::string& conditions, std::vector<Place>& places) {
-  for (const KeywordPage& keyword : level.keywords) places.push_back({&keyword, conditions});
-  for (const BlockPage& block : level.blocks)
-    collect(block.inside, conditions.empty() ? block.when : conditions + " and " + block.when, places);
-}
-
 std::vector<Place> places_of(const LevelPage& level) {
   std::vector<Place> places;
-  collect(level, "", places);
+  visit_keywords(level, [&](const KeywordPage& keyword, const std::string& conditions) {
+    places.push_back({&keyword, conditions});
+  });
   return places;
 }
 
