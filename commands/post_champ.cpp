@@ -9,7 +9,7 @@
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_parts.hpp"
 #include "solver/fields/plate_forces.hpp"
 #include "solver/fields/plate_stresses.hpp"
 

@@ -10,7 +10,7 @@
 #include "commands/fields/field_types.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_room.hpp"
 #include "solver/fields/projection.hpp"
 #include "solver/mesh/groups.hpp"
 #include "solver/mesh/place.hpp"
