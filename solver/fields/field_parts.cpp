@@ -85,4 +85,12 @@ ElementField side_by_side(const ElementField& first, const ElementField& second)
   return both;
 }
 
+ResultStep without_fields(const ResultStep& step) {
+  ResultStep bare;
+  bare.order = step.order;
+  bare.instant = step.instant;
+  bare.parameters = step.parameters;
+  return bare;
+}
+
 }  // namespace comma::solver

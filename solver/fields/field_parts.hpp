@@ -1,4 +1,4 @@
-// Parts of fields: on some cells, at some nodes, of some components; and two parts as one field.
+// Parts of fields: on some cells, at some nodes, of some components; two parts as one field; steps without fields.
 #pragma once
 
 #include <span>
@@ -26,5 +26,8 @@ Field with_components(const Field& field, std::span<const int> components);
 /// Two fields that lie on different cells, as one: with the components of both, absent where the other lies; the second
 /// alone where the first has no values.
 ElementField side_by_side(const ElementField& first, const ElementField& second);
+
+/// The order, instant and parameters of a step: what a result has in common with the one that it is made from.
+ResultStep without_fields(const ResultStep& step);
 
 }  // namespace comma::solver
