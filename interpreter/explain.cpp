@@ -157,8 +157,9 @@ std::vector<Place> find_places(const LevelPage& level, std::string_view name) {
 [[noreturn]] void throw_unknown_keyword(const std::string& level, const LevelPage& page, std::string_view name) {
   std::vector<std::string> known;
   for (const Place& place : places_of(page)) known.push_back(place.keyword->name);
+  const std::string near = did_you_mean(name, known);
   throw DiagnosticError("unknown-keyword", fmt::format("{} has no keyword {}", level, name), {},
-                        did_you_mean(name, known));
+                        near.empty() ? fmt::format("'comma explain {}' lists its keywords", level) : near);
 }
 
 /// `rest` is a path below a level, one or several keywords long. A keyword that stands in several blocks is told once
@@ -210,7 +211,8 @@ std::string explain(const Catalogue& catalogue, std::string_view path) {
   const std::string command(path.substr(0, slash));
   if (!catalogue.has(command)) {
     const MissingCommand missing = missing_command(command, catalogue.names());
-    throw DiagnosticError(missing.code, missing.message, {}, missing.hint);
+    throw DiagnosticError(missing.code, missing.message, {},
+                          missing.hint.empty() ? "'comma explain' lists the commands" : missing.hint);
   }
   const CommandPage& page = catalogue.page(command);
   Writer writer(catalogue);
