@@ -15,6 +15,8 @@
 #include "solver/error.hpp"
 #include "solver/fields/discretisation.hpp"
 #include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_room.hpp"
+#include "solver/fields/field_rows.hpp"
 
 namespace comma::commands {
 

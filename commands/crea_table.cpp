@@ -10,7 +10,8 @@
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/discretisation.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_room.hpp"
+#include "solver/fields/field_rows.hpp"
 
 namespace comma::commands {
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -27,14 +28,17 @@ void read_points(const Call& call, solver::TabulatedFunction& function) {
 
 // Abscissas rise unless VERIF="NON" lets comma sort them; two points never share one (U4.31.02).
 void sort_points(const Call& call, solver::TabulatedFunction& function) {
-  if (call.text("VERIF") == "CROISSANT" && !std::is_sorted(function.x.begin(), function.x.end())) {
-    throw DiagnosticError("wrong-order", "DEFI_FONCTION: the abscissas do not rise", call.span,
-                          "put the points in order, or give VERIF=\"NON\"");
-  }
+  const auto where = call.span_of(call.has("VALE") ? "VALE" : call.has("VALE_PARA") ? "VALE_PARA" : "ABSCISSE");
+  const auto back = std::ranges::is_sorted_until(function.x);
+  if (call.text("VERIF") == "CROISSANT" && back != function.x.end())
+    throw DiagnosticError(
+        "wrong-order",
+        fmt::format("DEFI_FONCTION: the abscissas do not rise: {:g} comes after {:g}", *back, *std::prev(back)), where,
+        "put the points in order, or give VERIF=\"NON\"");
   function.sort_points();
   if (const auto twice = std::ranges::adjacent_find(function.x); twice != function.x.end())
     throw DiagnosticError("repeated-abscissa", fmt::format("DEFI_FONCTION: the abscissa {:g} stands twice", *twice),
-                          call.span, "a function has one value at each abscissa; make a jump a steep ramp");
+                          where, "a function has one value at each abscissa; make a jump a steep ramp");
 }
 
 }  // namespace

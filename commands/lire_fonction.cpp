@@ -1,7 +1,5 @@
 #include <fmt/format.h>
 
-#include <fstream>
-
 #include "commands/commands.hpp"
 #include "commands/functions/function_building.hpp"
 #include "commands/tables/text_table.hpp"
@@ -14,10 +12,7 @@ namespace {
 using interpreter::DiagnosticError;
 
 std::vector<NumberBlock> read_blocks(const Call& call, Context& context) {
-  const auto path = context.files.input(static_cast<int>(call.integer("UNITE")), {"fonction", "dat", "txt"});
-  std::ifstream file(path);
-  if (!file) throw DiagnosticError("missing-file", "LIRE_FONCTION: cannot read " + path.string(), call.span);
-  context.console.progress("  reads " + path.string());
+  std::ifstream file = open_input(call, context, {"fonction", "dat", "txt"});
   const std::string& separator = call.text("SEPAR");
   return read_number_blocks(file, separator == "None" ? "" : separator);
 }

@@ -1,17 +1,10 @@
-#include <fstream>
-
 #include "commands/commands.hpp"
 #include "commands/tables/text_table.hpp"
-#include "interpreter/diagnostic.hpp"
-#include "solver/error.hpp"
 
 namespace comma::commands {
 
 Product lire_table(const Call& call, Context& context) {
-  const auto path = context.files.input(static_cast<int>(call.integer("UNITE")), {"table", "tab", "txt"});
-  std::ifstream file(path);
-  if (!file) throw interpreter::DiagnosticError("missing-file", "LIRE_TABLE: cannot read " + path.string(), call.span);
-  context.console.progress("  reads " + path.string());
+  std::ifstream file = open_input(call, context, {"table", "tab", "txt"});
   const auto number = static_cast<int>(call.integer("NUME_TABLE"));
   const std::string& separator = call.text("SEPARATEUR");
   auto product = std::make_shared<TableConcept>();

@@ -13,7 +13,9 @@
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/discretisation.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_parts.hpp"
+#include "solver/fields/field_room.hpp"
+#include "solver/fields/field_rows.hpp"
 #include "solver/fields/rotation.hpp"
 #include "solver/fields/turned_field.hpp"
 #include "solver/mesh/axes.hpp"
@@ -161,10 +163,7 @@ std::shared_ptr<ResultConcept> result_in_axes(const Call& call, bool& meets_axis
   auto product = std::make_shared<ResultConcept>(source);
   product->result.steps.clear();
   for (const solver::ResultStep* step : selected_steps(call, source.result)) {
-    solver::ResultStep target;
-    target.order = step->order;
-    target.instant = step->instant;
-    target.parameters = step->parameters;
+    solver::ResultStep target = solver::without_fields(*step);
     turn_step(call, source.result, *step, target, meets_axis);
     product->result.steps.push_back(std::move(target));
   }

@@ -9,7 +9,7 @@
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_parts.hpp"
 #include "solver/fields/plate_forces.hpp"
 #include "solver/fields/plate_stresses.hpp"
 
@@ -58,7 +58,7 @@ Product post_champ(const Call& call, Context& context) {
   product->result.model = source.result.model;
   warn_of_missing_instants("POST_CHAMP", call, context.diagnostics);
   for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
-    solver::ResultStep step{chosen->order, chosen->instant, {}, {}, chosen->parameters};
+    solver::ResultStep step = solver::without_fields(*chosen);
     for (const Keywords& occurrence : call.factors("EXTR_COQUE"))
       for (const std::string& name : occurrence.texts("NOM_CHAM"))
         step.fields.insert_or_assign(name, layer_of(occurrence, name, *chosen, cells));

@@ -10,7 +10,8 @@
 #include "commands/fields/field_types.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_parts.hpp"
+#include "solver/fields/field_room.hpp"
 #include "solver/fields/projection.hpp"
 #include "solver/mesh/groups.hpp"
 #include "solver/mesh/place.hpp"
@@ -195,10 +196,7 @@ std::shared_ptr<ResultConcept> projected_result(const Call& call, const Meeting&
   product->problem.model = meeting.to.model;
   product->problem.properties = std::make_shared<const solver::ElementProperties>();
   for (const solver::ResultStep* step : selected_steps(call, source.result)) {
-    solver::ResultStep target;
-    target.order = step->order;
-    target.instant = step->instant;
-    target.parameters = step->parameters;
+    solver::ResultStep target = solver::without_fields(*step);
     project_step(call, meeting, *step, target);
     if (!target.fields.empty()) product->result.steps.push_back(std::move(target));
   }

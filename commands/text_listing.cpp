@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_rows.hpp"
 #include "solver/fields/statistics.hpp"
 
 namespace comma::commands {

@@ -155,6 +155,15 @@ struct CommandPage {
   LevelPage inside;
 };
 
+/// Calls `visit(keyword, conditions)` for each keyword of a level and of its blocks, whether their conditions hold or
+/// not. `conditions` joins those of the blocks around the keyword with "and"; `outer` are those of the level.
+template <class Visit>
+void visit_keywords(const LevelPage& level, const Visit& visit, const std::string& outer = {}) {
+  for (const KeywordPage& keyword : level.keywords) visit(keyword, outer);
+  for (const BlockPage& block : level.blocks)
+    visit_keywords(block.inside, visit, outer.empty() ? block.when : outer + " and " + block.when);
+}
+
 /// A type of concept: "evol_noli", a "nonlinear result", which is also a "resultat_sdaster".
 struct ConceptTypePage {
   std::string name;

@@ -12,19 +12,12 @@
 #include "interpreter/check_rules.hpp"
 #include "interpreter/check_value.hpp"
 #include "interpreter/dict.hpp"
-#include "interpreter/former_names.hpp"
 #include "interpreter/keyword_scope.hpp"
+#include "interpreter/product_type.hpp"
+#include "interpreter/stray_keywords.hpp"
 
 namespace comma::interpreter {
 namespace {
-
-/// Calls `visit(keyword, conditions)` for each keyword of a level and of its blocks, whatever their conditions.
-template <class Visit>
-void visit_keywords(const LevelPage& level, const std::string& conditions, const Visit& visit) {
-  for (const KeywordPage& keyword : level.keywords) visit(keyword, conditions);
-  for (const BlockPage& block : level.blocks)
-    visit_keywords(block.inside, conditions.empty() ? block.when : conditions + " and " + block.when, visit);
-}
 
 /// An argument of the level on its way to its keyword.
 struct Pending {
@@ -78,8 +71,8 @@ class LevelCheck {
     scope_.open = open;
     context_.met_open = context_.met_open || open;
     resolve(arguments);
-    guess_misspelt();
     for (const Pending& pending : pending_) scope_.values[pending.name] = seen_by_conditions(*pending.argument->value);
+    guess_misspelt();
     forget_wrong_values();
     activate(level_, true);
     for (const Pending& pending : pending_)
@@ -99,7 +92,7 @@ class LevelCheck {
   void resolve(const std::vector<Argument>& arguments) {
     std::map<std::string, std::string, std::less<>> canonical;
     std::set<std::string, std::less<>> factors;
-    visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string&) {
+    visit_keywords(level_, [&](const KeywordPage& keyword, const std::string&) {
       for (const std::string& alias : keyword.aliases) canonical.emplace(alias, keyword.name);
       if (keyword.is_factor()) factors.insert(keyword.name);
     });
@@ -131,62 +124,13 @@ class LevelCheck {
   /// A misspelt keyword stands for the one that was probably meant: that one is not missing as well, and what depends
   /// on it is not known.
   void guess_misspelt() {
-    std::vector<std::string> names;  // in the order of the page, where the likelier ones stand first
-    visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string&) { names.push_back(keyword.name); });
-    for (const Pending& pending : pending_) {
-      if (std::ranges::find(names, pending.name) != names.end()) continue;
-      // Where the user may choose names, only one that stands for what must be there is a mistake.
-      std::string meant = of_former_keyword(label_, pending.name);
-      if (meant.empty()) meant = nearest(pending.name, level_.further ? missing() : names);
-      if (meant.empty() && !level_.further) meant = only_missing();
-      if (!meant.empty()) stand_for(pending, meant);
+    for (const Pending& pending : pending_) written_.push_back(pending.name);
+    guesses_ = guesses_of_misspelt(level_, label_, written_, scope_);
+    for (const KeywordGuess& guess : guesses_) {
+      const auto pending = std::ranges::find(pending_, guess.written, &Pending::name);
+      given_.push_back({guess.meant, pending->argument->name_span});
+      scope_.values[guess.meant] = Value::unknown();
     }
-  }
-
-  void stand_for(const Pending& pending, const std::string& meant) {
-    if (is_given(meant) || guessed(meant)) return;
-    given_.push_back({meant, pending.argument->name_span});
-    scope_.values[meant] = Value::unknown();
-    guesses_[pending.name] = meant;
-  }
-
-  /// The keywords that the level asks for, by themselves or as one of several, and that are not there.
-  std::vector<std::string> missing() const {
-    std::vector<std::string> names;
-    const auto is_there = [&](const std::string& name) { return is_given(name) || guessed(name); };
-    for (const KeywordPage& keyword : level_.keywords) {
-      if (keyword.required && !is_there(keyword.name)) names.push_back(keyword.name);
-    }
-    for (const RulePage& rule : level_.rules) {
-      const bool asks = rule.kind == RulePage::Kind::exactly_one || rule.kind == RulePage::Kind::at_least_one;
-      if (asks && std::ranges::none_of(rule.keywords, is_there))
-        names.insert(names.end(), rule.keywords.begin(), rule.keywords.end());
-    }
-    return names;
-  }
-
-  /// The one compulsory keyword, of the level or of a block that stands as long as nothing else is given, that is not
-  /// there; empty when there is none, or more.
-  std::string only_missing() const {
-    KeywordScope given = scope_;
-    for (const Pending& pending : pending_) given.values[pending.name] = seen_by_conditions(*pending.argument->value);
-    std::vector<std::string> names;
-    add_missing(level_, given, names);
-    return names.size() == 1 ? names.front() : "";
-  }
-
-  void add_missing(const LevelPage& level, const KeywordScope& given, std::vector<std::string>& names) const {
-    for (const KeywordPage& keyword : level.keywords)
-      if (keyword.required && !is_given(keyword.name) && !guessed(keyword.name)) names.push_back(keyword.name);
-    for (const BlockPage& block : level.blocks)
-      if (holds(*block.condition, given) == Truth::yes) add_missing(block.inside, given, names);
-  }
-
-  bool is_given(const std::string& name) const {
-    return std::ranges::find(pending_, name, &Pending::name) != pending_.end();
-  }
-  bool guessed(const std::string& name) const {
-    return std::ranges::any_of(guesses_, [&](const auto& guess) { return guess.second == name; });
   }
 
   void add_pending(Pending pending) {
@@ -227,7 +171,7 @@ class LevelCheck {
       } else {
         take_unjudged(keyword, *pending->argument);
       }
-    } else if (guessed(keyword.name)) {
+    } else if (std::ranges::find(guesses_, keyword.name, &KeywordGuess::meant) != guesses_.end()) {
       return;
     } else if (certain && !scope_.open) {
       take_default(keyword);
@@ -239,7 +183,7 @@ class LevelCheck {
 
   std::vector<const KeywordPage*> pages_of(const std::string& name) const {
     std::vector<const KeywordPage*> pages;
-    visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string&) {
+    visit_keywords(level_, [&](const KeywordPage& keyword, const std::string&) {
       if (keyword.name == name) pages.push_back(&keyword);
     });
     return pages;
@@ -267,7 +211,10 @@ class LevelCheck {
 
   /// A name that no keyword has: one that the user chose, where the level admits such, else a mistake.
   void take_other(const Pending& pending) {
-    if (!level_.further || guesses_.contains(pending.name)) return report_stray(pending);
+    const auto guess = std::ranges::find(guesses_, pending.name, &KeywordGuess::written);
+    if (!level_.further || guess != guesses_.end())
+      return report_stray_keyword(level_, label_, {pending.name, pending.argument->name_span}, written_,
+                                  guess == guesses_.end() ? "" : guess->meant, context_.diagnostics);
     KeywordPage keyword = *level_.further;
     keyword.name = pending.name;
     take_given(keyword, *pending.argument);
@@ -379,42 +326,6 @@ class LevelCheck {
     return value ? *value : Value::unknown();
   }
 
-  /// A keyword that the level does not have, or not now.
-  void report_stray(const Pending& pending) {
-    std::vector<std::string> conditions, known;
-    std::string home;
-    visit_keywords(level_, "", [&](const KeywordPage& keyword, const std::string& when) {
-      if (keyword.name == pending.name) conditions.push_back(when);
-      known.push_back(keyword.name);
-      // Of the factors that have it, one that the call writes is meant.
-      const bool is_written = std::ranges::any_of(pending_, [&](const Pending& other) { return other.name == home; });
-      if (keyword.is_factor() && has_keyword(keyword.inside, pending.name) && !is_written) home = keyword.name;
-    });
-    const Span& span = pending.argument->name_span;
-    if (!conditions.empty()) {
-      context_.diagnostics.error(
-          "unknown-keyword",
-          fmt::format("{} has {} only when {}", label_, pending.name, fmt::join(conditions, ", or ")), span);
-      return;
-    }
-    const auto guess = guesses_.find(pending.name);
-    const std::string near = guess == guesses_.end() ? nearest(pending.name, known) : guess->second;
-    std::string hint = hint_on_former_keyword(label_, pending.name);
-    if (hint.empty() && !home.empty())
-      hint = fmt::format("it belongs inside {}=_F(...)", home);
-    else if (hint.empty() && !near.empty())
-      hint = fmt::format("did you mean {}?", near);
-    context_.diagnostics.error("unknown-keyword", fmt::format("{} has no keyword {}", label_, pending.name), span,
-                               hint);
-  }
-
-  static bool has_keyword(const LevelPage& level, const std::string& name) {
-    bool found = false;
-    visit_keywords(level, "",
-                   [&](const KeywordPage& keyword, const std::string&) { found = found || keyword.name == name; });
-    return found;
-  }
-
   const LevelPage& level_;
   std::string label_;
   Span span_;
@@ -424,7 +335,8 @@ class LevelCheck {
   std::vector<GivenKeyword> given_;
   std::set<std::string, std::less<>> defined_;
   std::vector<std::pair<const KeywordPage*, Span>> conditional_;  ///< given, and of effect under a condition alone
-  std::map<std::string, std::string, std::less<>> guesses_;       ///< a misspelt keyword and the one that was meant
+  std::vector<std::string> written_;                              ///< the names of `pending_`
+  std::vector<KeywordGuess> guesses_;
   Keywords result_;
 };
 
@@ -438,25 +350,6 @@ bool holds_unknown(const Keyword& keyword) {
 
 bool holds_unknown(const Keywords& keywords) {
   return std::ranges::any_of(keywords.items, [](const Keyword& keyword) { return holds_unknown(keyword); });
-}
-
-/// The type of the concept that a keyword names, if it is of the kind that the product is.
-std::string type_like(const ProductPage& product, const Keywords& keywords, const Catalogue& catalogue) {
-  const auto named = std::ranges::find(keywords.items, product.like, &Keyword::name);
-  const bool fits = named != keywords.items.end() && named->value.is_concept() &&
-                    catalogue.is_a(named->value.as_concept()->type, product.type);
-  return fits ? named->value.as_concept()->type : product.type;
-}
-
-/// Nothing where it depends on a value that is not known.
-std::optional<std::string> product_type(const CommandPage& page, const KeywordScope& scope, const Keywords& keywords,
-                                        const Catalogue& catalogue) {
-  for (const ProductPage& product : page.products) {
-    const Truth fits = product.condition == nullptr ? Truth::yes : holds(*product.condition, scope);
-    if (fits == Truth::unknown) return std::nullopt;
-    if (fits == Truth::yes) return product.like.empty() ? product.type : type_like(product, keywords, catalogue);
-  }
-  return "";
 }
 
 std::size_t count_errors(const Diagnostics& diagnostics) {
@@ -491,9 +384,7 @@ CheckedCall check_call(const CommandCall& written, const CommandPage& page, cons
   static_cast<Keywords&>(checked.call) = level.run(arguments, written.open);
   checked.call.span = written.span;
   checked.call.command = page.name;
-  const auto type = product_type(page, level.scope(), checked.call, catalogue);
-  checked.product_type = type.value_or("");
-  checked.product_is_open = !type;
+  checked.product_type = product_type(page, level.scope(), checked.call, catalogue);
   const bool reused = reuse != written.arguments.end() && !reuse->value->is_none();
   check_reuse(written, page, reused ? &*reuse : nullptr, context, checked);
 

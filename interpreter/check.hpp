@@ -1,8 +1,9 @@
 // Turns a call as it was written into a call that a command can trust. Every problem of the call is reported, each
-// once, at the keyword or the value that has it; see check_value.hpp for single values and check_rules.hpp for
-// relations.
+// once, at the keyword or the value that has it; see check_value.hpp for single values, check_rules.hpp for relations
+// and stray_keywords.hpp for names that no keyword has.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "interpreter/call.hpp"
@@ -13,12 +14,11 @@
 namespace comma::interpreter {
 
 struct CheckedCall {
-  Call call;                     ///< call.result is the reused concept, or null: the session makes the new one
-  std::string product_type;      ///< type of the concept that it gives, or empty
-  bool product_is_open = false;  ///< which type it gives depends on a value that is not known
-  bool sound = true;             ///< no error was reported
-  bool complete = true;          ///< it may run: no value is unknown and comma supports everything in it
-  bool left_out = false;         ///< it only writes, and asks for something that comma does not support
+  Call call;  ///< call.result is the reused concept, or null: the session makes the new one
+  std::optional<std::string> product_type;  ///< see product_type.hpp
+  bool sound = true;                        ///< no error was reported
+  bool complete = true;                     ///< it may run: no value is unknown and comma supports everything in it
+  bool left_out = false;                    ///< it only writes, and asks for something that comma does not support
 };
 
 /// Codes: unknown-keyword, duplicate-keyword, missing-keyword, wrong-type, wrong-concept-type, wrong-count,

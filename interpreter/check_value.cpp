@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -11,6 +12,7 @@
 #include "interpreter/array.hpp"
 #include "interpreter/former_names.hpp"
 #include "interpreter/item_span.hpp"
+#include "interpreter/objects.hpp"
 
 namespace comma::interpreter {
 namespace {
@@ -120,6 +122,13 @@ std::optional<Value> convert(const Value& value, const TypePage& type, const Cat
     default:
       return value.is_text() ? std::optional(value) : std::nullopt;
   }
+}
+
+bool is_number(const std::string& text) {
+  double number = 0.0;
+  const char* end = text.data() + text.size();
+  const auto read = std::from_chars(text.data(), end, number);
+  return read.ec == std::errc() && read.ptr == end;
 }
 
 bool admits(const KeywordPage& page, Kind kind) {
@@ -233,6 +242,9 @@ class ValueCheck {
       return "a keyword takes an array of one dimension: flatten() makes it one";
     if (item.is_factor()) return label_ + " is a simple keyword: give it a value, without _F(...)";
     if (item.is_number() && holds_text(page_.types.front().kind)) return "put it between quotes";
+    const bool wants_number = admits(page_, Kind::real) || admits(page_, Kind::integer);
+    if (wants_number && item.is_text() && is_number(item.as_text())) return "leave out the quotes";
+    if (const auto* command = item.as_object<CommandObject>()) return fmt::format("call it: {}(...)", command->name);
     return producers_hint();
   }
 

@@ -138,6 +138,30 @@ bool holds_any_unknown(const CallArguments& arguments) {
          std::ranges::any_of(arguments.positional, [](const Value& value) { return holds_unknown(value); });
 }
 
+/// A method of a type (str.upper), with its object as first argument.
+Value call_unbound(Evaluator& evaluator, const UnboundMethod& unbound, const CallArguments& arguments) {
+  if (arguments.positional.empty())
+    raise(ErrorKind::type, fmt::format("unbound method {}() needs an argument", unbound.name));
+  CallArguments rest = arguments;
+  rest.positional.erase(rest.positional.begin());
+  // Looked up again: the object decides which type's method it is.
+  const Method method = find_method(arguments[0], unbound.name);
+  if (method != unbound.method)
+    raise(ErrorKind::type, fmt::format("{}() does not apply to a '{}' object", unbound.name, arguments[0].type_name()));
+  return method(evaluator, arguments[0], rest);
+}
+
+/// Not as work of the host: what it calls of the file counts as the file's own.
+Value call_host_method(Evaluator& evaluator, const HostMethod& method, const CallArguments& arguments) {
+  try {
+    return method.code(evaluator, arguments);
+  } catch (const LimitReached&) {
+    throw;
+  } catch (const DiagnosticError& error) {
+    throw RaisedError(make_exception(error.diagnostic()));
+  }
+}
+
 }  // namespace
 
 /// What is called is not known: it may have changed what it names with reuse=.
@@ -167,19 +191,8 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
     if (!stores && arguments.any_unknown()) return Value::unknown();
     return bound->method(*this, bound->self, arguments);
   }
-  if (const auto* unbound = callee.as_object<UnboundMethod>()) {
-    if (arguments.any_unknown()) return Value::unknown();
-    if (arguments.positional.empty())
-      raise(ErrorKind::type, fmt::format("unbound method {}() needs an argument", unbound->name));
-    CallArguments rest = arguments;
-    rest.positional.erase(rest.positional.begin());
-    // Looked up again: the object decides which type's method it is.
-    const Method method = find_method(arguments[0], unbound->name);
-    if (method != unbound->method)
-      raise(ErrorKind::type,
-            fmt::format("{}() does not apply to a '{}' object", unbound->name, arguments[0].type_name()));
-    return method(*this, arguments[0], rest);
-  }
+  if (const auto* unbound = callee.as_object<UnboundMethod>())
+    return arguments.any_unknown() ? Value::unknown() : call_unbound(*this, *unbound, arguments);
   if (const auto* type = callee.as_object<TypeObject>()) {
     const bool is_unknown = type->name == "str" ? holds_any_unknown(arguments) : arguments.any_unknown();
     return is_unknown ? Value::unknown() : construct(*this, type->name, arguments);
@@ -205,17 +218,8 @@ Value Evaluator::call(const Value& callee, const CallArguments& arguments) {
     if (!arguments.named.empty()) raise(ErrorKind::type, fmt::format("{}() takes no keyword arguments", method->name));
     return with_host([&] { return method->code(arguments.positional); });
   }
-  if (const auto* method = callee.as_object<HostMethod>()) {
-    if (arguments.any_unknown()) return Value::unknown();
-    // Not as work of the host: what it calls of the file counts as the file's own.
-    try {
-      return method->code(*this, arguments);
-    } catch (const LimitReached&) {
-      throw;
-    } catch (const DiagnosticError& error) {
-      throw RaisedError(make_exception(error.diagnostic()));
-    }
-  }
+  if (const auto* method = callee.as_object<HostMethod>())
+    return arguments.any_unknown() ? Value::unknown() : call_host_method(*this, *method, arguments);
   if (callee.is_concept()) {
     if (arguments.any_unknown()) return Value::unknown();
     const ConceptPtr& handle = callee.as_concept();

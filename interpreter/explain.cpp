@@ -23,15 +23,11 @@ struct Place {
   std::string conditions;
 };
 
-void collect(const LevelPage& level, const std::string& conditions, std::vector<Place>& places) {
-  for (const KeywordPage& keyword : level.keywords) places.push_back({&keyword, conditions});
-  for (const BlockPage& block : level.blocks)
-    collect(block.inside, conditions.empty() ? block.when : conditions + " and " + block.when, places);
-}
-
 std::vector<Place> places_of(const LevelPage& level) {
   std::vector<Place> places;
-  collect(level, "", places);
+  visit_keywords(level, [&](const KeywordPage& keyword, const std::string& conditions) {
+    places.push_back({&keyword, conditions});
+  });
   return places;
 }
 
@@ -161,8 +157,9 @@ std::vector<Place> find_places(const LevelPage& level, std::string_view name) {
 [[noreturn]] void throw_unknown_keyword(const std::string& level, const LevelPage& page, std::string_view name) {
   std::vector<std::string> known;
   for (const Place& place : places_of(page)) known.push_back(place.keyword->name);
+  const std::string near = did_you_mean(name, known);
   throw DiagnosticError("unknown-keyword", fmt::format("{} has no keyword {}", level, name), {},
-                        did_you_mean(name, known));
+                        near.empty() ? fmt::format("'comma explain {}' lists its keywords", level) : near);
 }
 
 /// `rest` is a path below a level, one or several keywords long. A keyword that stands in several blocks is told once
@@ -214,7 +211,8 @@ std::string explain(const Catalogue& catalogue, std::string_view path) {
   const std::string command(path.substr(0, slash));
   if (!catalogue.has(command)) {
     const MissingCommand missing = missing_command(command, catalogue.names());
-    throw DiagnosticError(missing.code, missing.message, {}, missing.hint);
+    throw DiagnosticError(missing.code, missing.message, {},
+                          missing.hint.empty() ? "'comma explain' lists the commands" : missing.hint);
   }
   const CommandPage& page = catalogue.page(command);
   Writer writer(catalogue);

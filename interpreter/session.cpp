@@ -64,8 +64,9 @@ Value Session::call(const CommandCall& written, bool eager) {
   if (const auto given = worths_.find(written.name); given != worths_.end())
     worth = checked.complete ? given->second(checked.call) : Value::unknown();
   ConceptPtr product = checked.call.result;
-  if (!product && !checked.product_type.empty())
-    product = make_concept(checked.product_type, written.target, written.name_span);
+  const bool product_is_known = checked.product_type.has_value();
+  if (!product && product_is_known && !checked.product_type->empty())
+    product = make_concept(*checked.product_type, written.target, written.name_span);
   checked.call.result = product;
   CommandNode& node = graph_.add(std::move(checked.call), product, page, checked.complete);
   node.caught = eager;
@@ -85,7 +86,7 @@ Value Session::call(const CommandCall& written, bool eager) {
       throw;
     }
   }
-  if (!product && checked.product_is_open) return Value::unknown();
+  if (!product && !product_is_known) return Value::unknown();
   return product ? Value(product) : worth;
 }
 

@@ -41,7 +41,12 @@ std::shared_ptr<const SourceFile> SourceFile::read(const std::string& path) {
   std::ostringstream text;
   if (stream) text << stream.rdbuf();
   if (!stream) throw DiagnosticError("unreadable-file", "the file " + path + " cannot be read");
-  return std::make_shared<const SourceFile>(path, std::move(text).str());
+  std::string characters = std::move(text).str();
+  // Of a mesh or a picture every second character would be an error of its own.
+  if (characters.find('\0') != std::string::npos)
+    throw DiagnosticError("unreadable-file", path + " is no text: it holds characters of value 0", {},
+                          "name the command file; if this is it, save it as UTF-8");
+  return std::make_shared<const SourceFile>(path, std::move(characters));
 }
 
 Position SourceFile::position(std::uint32_t offset) const {

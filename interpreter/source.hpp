@@ -22,7 +22,7 @@ class SourceFile {
  public:
   SourceFile(std::string path, std::string text);
 
-  /// Reads a file from disk. Throws DiagnosticError `unreadable-file`.
+  /// Reads a file from disk. Throws DiagnosticError `unreadable-file`, also for what is no text.
   static std::shared_ptr<const SourceFile> read(const std::string& path);
 
   const std::string& path() const { return path_; }

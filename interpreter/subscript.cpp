@@ -28,9 +28,10 @@ std::int64_t checked_index(const Value& object, const Value& index, std::int64_t
   const std::int64_t wanted = index.is_big_integer() ? length : index_of(index);
   const std::int64_t place = wanted < 0 ? wanted + length : wanted;
   if (place < 0 || place >= length) {
-    raise(
-        ErrorKind::index, fmt::format("{}{} index out of range", word_for(object), action),
-        length == 0 ? "it is empty" : fmt::format("it has {} items: the indices go from 0 to {}", length, length - 1));
+    raise(ErrorKind::index, fmt::format("{}{} index out of range", word_for(object), action),
+          length == 0   ? "it is empty"
+          : length == 1 ? "it has one item, whose index is 0"
+                        : fmt::format("it has {} items: the indices go from 0 to {}", length, length - 1));
   }
   return place;
 }

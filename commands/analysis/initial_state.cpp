@@ -10,7 +10,7 @@
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/beam_forces.hpp"
 #include "solver/fields/discretisation.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_parts.hpp"
 
 namespace comma::commands {
 

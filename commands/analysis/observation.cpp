@@ -15,7 +15,7 @@
 #include "commands/tables/reductions.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_rows.hpp"
 #include "solver/fields/row_functions.hpp"
 
 namespace comma::commands {

@@ -21,6 +21,7 @@ interpreter::Diagnostics diagnostics_of(const CheckOptions& options) try {
 }  // namespace
 
 int check(const CheckOptions& options) {
+  if (!options.json.empty()) require_writable(options.json);
   const interpreter::Diagnostics diagnostics = diagnostics_of(options);
   print_diagnostics(diagnostics, true);
   const int status = diagnostics.has_errors() ? the_file_is_wrong : all_verdicts_hold;

@@ -1,9 +1,14 @@
 // The command line: comma run | check | graph | explain.
 #include <CLI/CLI.hpp>
 
+#include <fmt/format.h>
 #include <malloc.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "commands/cli/options.hpp"
+#include "interpreter/diagnostic.hpp"
 
 namespace {
 
@@ -68,6 +73,47 @@ void declare(CLI::App& app, Subcommands& given, int& status) {
   explain_command->callback([&] { status = explain(given.explained); });
 }
 
+void tell(const comma::interpreter::Diagnostic& problem) {
+  std::fprintf(stderr, "%s\n", comma::interpreter::render(problem).c_str());
+}
+
+std::vector<std::string> subcommand_names(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* each : app.get_subcommands([](const CLI::App*) { return true; }))
+    names.push_back(each->get_name());
+  return names;
+}
+
+// The long ones.
+std::vector<std::string> option_names(const CLI::App& command) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  return names;
+}
+
+// A word on the command line that means nothing, with what is probably meant; nothing where all words do.
+std::optional<comma::interpreter::Diagnostic> stray_word(const CLI::App& app, const std::vector<std::string>& words) {
+  using comma::interpreter::did_you_mean, comma::interpreter::Severity;
+  const auto names = subcommand_names(app);
+  const auto command = std::ranges::find_if_not(words, [](const std::string& word) { return word.starts_with('-'); });
+  if (command == words.end()) return std::nullopt;
+  if (std::ranges::find(names, *command) == names.end()) {
+    const std::string near = did_you_mean(*command, names);
+    const std::string hint = near.empty() ? fmt::format("there are {}", fmt::join(names, ", ")) : near;
+    return {{Severity::error, "usage", fmt::format("comma has no subcommand {}", *command), hint, {}}};
+  }
+  const auto options = option_names(*app.get_subcommand(*command));
+  for (const std::string& word : words) {
+    const std::string name = word.substr(0, word.find('='));
+    if (!word.starts_with("--") || std::ranges::find(options, name) != options.end()) continue;
+    const std::string near = did_you_mean(name, options);
+    const std::string hint = near.empty() ? fmt::format("'comma {} --help' lists them", *command) : near;
+    return {{Severity::error, "usage", fmt::format("comma {} has no option {}", *command, name), hint, {}}};
+  }
+  return std::nullopt;
+}
+
 // Freed memory stays with the program: large arrays come and go with each assembly and factorisation, and pages that
 // the system has to clear anew cost a fifth of a large run.
 void keep_memory() {
@@ -91,7 +137,13 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(anything_else);
+    const auto stray = error.get_exit_code() == 0 ? std::nullopt : stray_word(app, {argv + 1, argv + argc});
+    if (!stray) return app.exit(error) == 0 ? 0 : static_cast<int>(anything_else);
+    tell(*stray);
+    return anything_else;
+  } catch (const comma::interpreter::DiagnosticError& error) {
+    tell(error.diagnostic());
+    return anything_else;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "comma: %s\n", error.what());
     return anything_else;

@@ -1,13 +1,16 @@
 #include "commands/cli/report.hpp"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 namespace comma::commands {
 
+namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 namespace {
@@ -108,6 +111,16 @@ std::string to_json(const Report& report) {
       {"peak_memory_bytes", peak_memory_bytes()},
       {"seconds", report.seconds}};
   return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+void require_writable(const std::string& path) {
+  const fs::path file = fs::absolute(path), folder = file.parent_path();
+  if (!fs::is_directory(folder))
+    throw interpreter::DiagnosticError("unwritable-file", "cannot write the report " + path, {},
+                                       "there is no folder " + folder.string());
+  if (fs::is_directory(file) || access((fs::exists(file) ? file : folder).c_str(), W_OK) != 0)
+    throw interpreter::DiagnosticError("unwritable-file", "cannot write the report " + path, {},
+                                       "name a file in a folder that you may write to");
 }
 
 void write_report(const std::string& path, const Report& report) {

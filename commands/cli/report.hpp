@@ -31,6 +31,10 @@ struct Report {
 /// The report as JSON text, with this process's peak memory.
 std::string to_json(const Report& report);
 
+/// Whether a report could be written there, asked before anything is computed for it. Throws DiagnosticError
+/// `unwritable-file`.
+void require_writable(const std::string& path);
+
 /// Throws DiagnosticError `unwritable-file`.
 void write_report(const std::string& path, const Report& report);
 

@@ -73,6 +73,7 @@ Outcome execute(const RunOptions& options) try {
 }  // namespace
 
 int run(const RunOptions& options) {
+  if (!options.json.empty()) require_writable(options.json);
   const Outcome outcome = execute(options);
   if (!options.json.empty()) write_report(options.json, outcome.report);
   return outcome.status;

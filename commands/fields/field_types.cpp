@@ -7,6 +7,7 @@
 #include <map>
 
 #include "interpreter/diagnostic.hpp"
+#include "solver/fields/field_rows.hpp"
 
 namespace comma::commands {
 

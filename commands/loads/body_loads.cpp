@@ -14,7 +14,7 @@
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/fields/discretisation.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_parts.hpp"
 
 namespace comma::commands {
 

@@ -12,6 +12,7 @@
 #include "interpreter/exception.hpp"
 #include "interpreter/host_object.hpp"
 #include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_rows.hpp"
 
 namespace comma::commands {
 

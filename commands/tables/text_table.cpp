@@ -7,6 +7,7 @@
 #include <optional>
 #include <sstream>
 
+#include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
 
 namespace comma::commands {
@@ -118,6 +119,16 @@ Table filled(const std::string& title, const Words& names, const std::vector<Wor
 }
 
 }  // namespace
+
+std::ifstream open_input(const interpreter::Call& call, Context& context, const std::vector<std::string>& extensions) {
+  const auto path = context.files.input(static_cast<int>(call.integer("UNITE")), extensions);
+  std::ifstream file(path);
+  if (!file)
+    throw interpreter::DiagnosticError("missing-file", fmt::format("{}: cannot read {}", call.command, path.string()),
+                                       call.span);
+  context.console.progress("  reads " + path.string());
+  return file;
+}
 
 Table read_aster_table(std::istream& file, const std::string& separator, int number) {
   int found = 0;

@@ -40,17 +40,18 @@ std::vector<fs::path> sources() {
 }
 
 TEST_CASE("The page of alarms lists those of the program") {
-  // Words stand where the alarm is raised; those of contact where its doubts become advice.
+  // Words stand where the alarm is raised; those of contact where its doubts become advice (advice_on).
   std::set<std::string> raised;
   for (const fs::path& source : sources()) {
     const std::string text = text_of(source);
     const auto named = matches(text, "alarm\\(\\s*\"([a-z-]+)\"");
     const auto calls = matches(text, "(?:\\.|->)(alarm)\\(");
     const auto advice = matches(text, "alarm\\((advice\\.code),");
-    const auto of_contact = advice.empty() ? advice : matches(text, "return \\{\\s*\"([a-z-]+)\"");
+    const bool advises = source.filename() == "doubt_advice.cpp";
+    const auto of_contact = matches(advises ? text : "", "return \\{\\s*\"([a-z-]+)\"");
     INFO(source);
     CHECK(named.size() + advice.size() == calls.size());
-    CHECK(advice.empty() == of_contact.empty());
+    CHECK(advises != of_contact.empty());
     raised.insert(named.begin(), named.end());
     raised.insert(of_contact.begin(), of_contact.end());
   }

@@ -190,6 +190,8 @@ TEST_CASE("A missing compulsory keyword is told at the command") {
 TEST_CASE("A text where a number is wanted") {
   expect(Checker().only({{"PRES", Value("abc")}}), "wrong-type", "LOAD/PRES wants a real number, not the text 'abc'",
          "'abc'");
+  expect(Checker().only({{"PRES", Value("2.5e3")}}), "wrong-type",
+         "LOAD/PRES wants a real number, not the text '2.5e3'", "'2.5e3'", "leave out the quotes");
 }
 
 TEST_CASE("A real where an integer is wanted") {

@@ -26,7 +26,7 @@ struct Builder {
         check_call(written_call(command, arguments), page, *little.catalogue, diagnostics, Severity::error);
     REQUIRE(diagnostics.items().empty());
     ConceptPtr product = checked.call.result;
-    if (!product && !checked.product_type.empty()) product = new_concept(name, checked.product_type, next++);
+    if (!product && !checked.product_type->empty()) product = new_concept(name, *checked.product_type, next++);
     checked.call.result = product;
     graph.add(std::move(checked.call), product, page);
     return product;

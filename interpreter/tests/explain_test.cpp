@@ -66,4 +66,6 @@ TEST_CASE("A name that is not there is told with the nearest one") {
   CHECK(hint("THER_LINEAIRE") == "unsupported: 'comma explain' lists the commands that it has");
   CHECK(hint("LOAD/PRESS") == "unknown-keyword: did you mean PRES?");
   CHECK(hint("LOAD/SPOT/GROUPE") == "unknown-keyword: did you mean GROUP?");
+  CHECK(hint("LOAD/SPOT/ELSEWHERE") == "unknown-keyword: 'comma explain LOAD/SPOT' lists its keywords");
+  CHECK(hint("ELSEWHERE") == "unknown-command: 'comma explain' lists the commands");
 }

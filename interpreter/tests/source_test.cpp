@@ -1,5 +1,8 @@
 #include "interpreter/source.hpp"
 
+#include <filesystem>
+#include <fstream>
+
 #include <catch2/catch.hpp>
 
 #include "interpreter/diagnostic.hpp"
@@ -57,4 +60,16 @@ TEST_CASE("A file that cannot be read is a diagnostic", "[source]") {
   } catch (const DiagnosticError& error) {
     CHECK(error.diagnostic().code == "unreadable-file");
   }
+}
+
+TEST_CASE("What is no text is told once, and not character by character", "[source]") {
+  const auto path = std::filesystem::temp_directory_path() / "comma_no_text.comm";
+  std::ofstream(path, std::ios::binary) << std::string("HDF\0\0\0", 6);
+  try {
+    SourceFile::read(path.string());
+    FAIL("nothing was thrown");
+  } catch (const DiagnosticError& error) {
+    CHECK(error.diagnostic().message == path.string() + " is no text: it holds characters of value 0");
+  }
+  std::filesystem::remove(path);
 }

@@ -19,7 +19,7 @@
 #include "solver/elements/rotating_beam.hpp"
 #include "solver/elements/sparse_pattern.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_parts.hpp"
 #include "solver/fields/plate_stresses.hpp"
 #include "solver/model/stress_names.hpp"
 

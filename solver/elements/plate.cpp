@@ -1,18 +1,14 @@
-// Flat plates on three or four nodes, thin (DKT, DKQ) or with shear (DST, DSQ): see plate_kinematics.hpp. Offsets as
-// R3.07.06: the nodes lie on the surface of the mesh, the strains of the mid-surface are those of the nodes plus offset
-// times curvature.
+// Flat plates on three or four nodes, thin (DKT, DKQ) or with shear (DST, DSQ): see flat_plate.hpp for one of them,
+// plate_kinematics.hpp for its strains.
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "solver/elements/element_block.hpp"
 #include "solver/elements/energy_parts.hpp"
-#include "solver/elements/plate_axes.hpp"
-#include "solver/elements/plate_kinematics.hpp"
-#include "solver/elements/quadrature.hpp"
+#include "solver/elements/flat_plate.hpp"
 #include "solver/elements/translation.hpp"
 #include "solver/error.hpp"
 #include "solver/model/stress_names.hpp"
@@ -20,60 +16,6 @@
 namespace comma::solver {
 
 namespace {
-
-template <int Nodes>
-struct Plate {
-  Eigen::Matrix3d axes;  ///< rows
-  Eigen::Matrix<double, 2, Nodes> corners;
-  const PlateSection* section;
-  const IsotropicElasticity* material;
-};
-
-const PlateSection& section_of(const BlockInput& input, int cell) {
-  const std::string name = input.model.mesh->cell_name(cell);
-  const auto found = input.properties.plates.find(cell);
-  if (found == input.properties.plates.end()) {
-    throw Error("missing-properties", fmt::format("the plate on cell {} has no thickness", name));
-  }
-  if (!(found->second.thickness > 0.0) || !(found->second.shear_factor > 0.0)) {
-    throw Error("invalid-properties",
-                fmt::format("the plate on cell {} needs a positive thickness and shear factor", name));
-  }
-  return found->second;
-}
-
-/// Corners relative to the first, one a column.
-template <int Nodes>
-Eigen::Matrix<double, 3, Nodes> relative_corners(const Mesh& mesh, int cell) {
-  Eigen::Matrix<double, 3, Nodes> places;
-  const auto nodes = mesh.cell(cell);
-  for (int i = 0; i < Nodes; ++i) places.col(i) = Eigen::Map<const Eigen::Vector3d>(mesh.nodes[nodes[i]].data());
-  return places.colwise() - places.col(0).eval();
-}
-
-template <int Nodes>
-Plate<Nodes> make_plate(const BlockInput& input, int cell) {
-  const Mesh& mesh = *input.model.mesh;
-  const auto corners = relative_corners<Nodes>(mesh, cell);
-  const PlateSection& section = section_of(input, cell);
-  Plate<Nodes> plate{plate_axes(mesh, cell, section), {}, &section, &isotropic_material(input, cell)};
-  plate.corners = plate.axes.template topRows<2>() * corners;
-  return plate;
-}
-
-PlateRigidity rigidity_of(const PlateSection& section, const IsotropicModuli& material, bool shears) {
-  const double h = section.thickness;
-  const double plane = material.young / (1.0 - material.poisson * material.poisson);
-  const double shear_modulus = 0.5 * material.young / (1.0 + material.poisson);
-  return {plane * h, plane * h * h * h / 12.0, material.poisson, section.offset,
-          shears ? 1.0 / (section.shear_factor * shear_modulus * h) : 0.0};
-}
-
-Eigen::Matrix3d plane_law(double rigidity, double poisson) {
-  Eigen::Matrix3d law;
-  law << 1, poisson, 0, poisson, 1, 0, 0, 0, 0.5 * (1 - poisson);
-  return rigidity * law;
-}
 
 /// All plates of a model on cells of one type. Materials count by their constants at the middle of a cell.
 template <int Nodes>
@@ -91,8 +33,7 @@ class PlateBlock final : public ElementBlock {
         map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), Nodes, gather_nodes(mesh_, cells_)),
         points_(quadrature(type, plate_family(type))) {
     for (const int cell : cells_) {
-      plates_.push_back(make_plate<Nodes>(input, cell));
-      check_convex(static_cast<int>(plates_.size()) - 1);
+      plates_.push_back(flat_plate<Nodes>(input, cell));
       const bool constant = is_constant_material(plates_.back());
       constant_ = constant_ && constant;
       matrices_.push_back(constant ? matrix(plates_.back(), MaterialPoint()) : Matrix::Zero().eval());
@@ -176,7 +117,7 @@ class PlateBlock final : public ElementBlock {
       const Vector push = forces_of_strain(element, state, strain);
       for (int i = 0; i < size; ++i) out[element] -= static_cast<double>(moved[i]) * push[i];
       const Eigen::Vector3d undone = membrane_forces(rigidity(element, state), strain);
-      out[element] += 0.5 * area(element) * strain * (undone[0] + undone[1]);
+      out[element] += 0.5 * area_of(plates_[element]) * strain * (undone[0] + undone[1]);
     }
   }
 
@@ -185,7 +126,7 @@ class PlateBlock final : public ElementBlock {
   /// About the surface of the mesh; what holds the rotation about the normal is in none.
   void energy_parts(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
-      const Plate<Nodes>& plate = plates_[element];
+      const FlatPlate<Nodes>& plate = plates_[element];
       const PlateRigidity rigidity = this->rigidity(element, state);
       const PlateKinematics<Nodes> kinematics(plate.corners, rigidity);
       const Vector own = own_displacements(u, element);
@@ -324,18 +265,8 @@ class PlateBlock final : public ElementBlock {
     return {normal, plane_law(rigidity.bending, rigidity.poisson) * strain.tail<3>() + offset * normal};
   }
 
-  static bool is_constant_material(const Plate<Nodes>& plate) {
+  static bool is_constant_material(const FlatPlate<Nodes>& plate) {
     return plate.material->young.is_constant() && plate.material->poisson.is_constant();
-  }
-
-  void check_convex(int element) const {
-    const auto& corners = plates_[element].corners;
-    for (int i = 0; i < Nodes; ++i) {
-      const Eigen::Vector2d before = corners.col(i) - corners.col((i + Nodes - 1) % Nodes);
-      const Eigen::Vector2d after = corners.col((i + 1) % Nodes) - corners.col(i);
-      if (before[0] * after[1] - before[1] * after[0] > 0.0) continue;
-      throw Error("distorted-cell", fmt::format("plate {} is not convex", mesh_.cell_name(cells_[element])));
-    }
   }
 
   MaterialPoint material_point(int element, const VariableState& state) const {
@@ -353,7 +284,7 @@ class PlateBlock final : public ElementBlock {
   }
 
   PlateRigidity rigidity(int element, const VariableState& state) const {
-    const Plate<Nodes>& plate = plates_[element];
+    const FlatPlate<Nodes>& plate = plates_[element];
     return rigidity_of(*plate.section, moduli(*plate.material, material_point(element, state)), shears_);
   }
 
@@ -368,19 +299,9 @@ class PlateBlock final : public ElementBlock {
     return plane_law(rigidity.membrane, rigidity.poisson) * Eigen::Vector3d(strain, strain, 0.0);
   }
 
-  double area(int element) const {
-    const auto& corners = plates_[element].corners;
-    double twice = 0.0;
-    for (int i = 0; i < Nodes; ++i) {
-      const auto a = corners.col(i), b = corners.col((i + 1) % Nodes);
-      twice += a[0] * b[1] - a[1] * b[0];
-    }
-    return 0.5 * twice;
-  }
-
   /// The forces (in the axes of the mesh) with which such a strain pushes the nodes apart.
   Vector forces_of_strain(int element, const VariableState& state, double strain) const {
-    const Plate<Nodes>& plate = plates_[element];
+    const FlatPlate<Nodes>& plate = plates_[element];
     const PlateRigidity rigidity = this->rigidity(element, state);
     const PlateKinematics<Nodes> kinematics(plate.corners, rigidity);
     const Eigen::Vector3d pushing = membrane_forces(rigidity, strain);
@@ -423,43 +344,15 @@ class PlateBlock final : public ElementBlock {
     return own;
   }
 
-  Matrix matrix(const Plate<Nodes>& plate, const MaterialPoint& at) const {
+  Matrix matrix(const FlatPlate<Nodes>& plate, const MaterialPoint& at) const {
     const IsotropicModuli constants = moduli(*plate.material, at);
-    Matrix k = own_stiffness(plate, rigidity_of(*plate.section, constants, shears_), constants.young);
+    Matrix k = plate_stiffness(plate, rigidity_of(*plate.section, constants, shears_), constants.young, points_);
     Matrix turn = Matrix::Zero();
     for (int i = 0; i < size; i += 3) turn.template block<3, 3>(i, i) = plate.axes;
     k = (turn.transpose() * k * turn).eval();
     k = (0.5 * (k + k.transpose())).eval();
     make_translation_exact<Nodes, 6>(k, {true, true, true, false, false, false});
     return k;
-  }
-
-  Matrix own_stiffness(const Plate<Nodes>& plate, const PlateRigidity& rigidity, double young) const {
-    const PlateSection& section = *plate.section;
-    const PlateKinematics<Nodes> kinematics(plate.corners, rigidity);
-    const Eigen::Matrix3d membrane = plane_law(rigidity.membrane, rigidity.poisson);
-    const Eigen::Matrix3d bending = plane_law(rigidity.bending, rigidity.poisson);
-    const double tie = section.drilling < 0.0 ? -section.drilling * young * section.thickness : 0.0;
-    Matrix k = Matrix::Zero();
-    for (const QuadraturePoint& point : points_) {
-      const PlateRows<Nodes> rows = kinematics.at(point.at);
-      const double area = point.weight * rows.measure;
-      const Eigen::Matrix<double, 3, size> strain = rows.membrane + section.offset * rows.curvature;
-      k += area * (strain.transpose() * membrane * strain + rows.curvature.transpose() * bending * rows.curvature);
-      if (shears_) k += area * rigidity.shear_compliance * rows.shear_force.transpose() * rows.shear_force;
-      if (tie > 0.0) k += area * tie * rows.spin.transpose() * rows.spin;
-    }
-    if (section.drilling > 0.0) hold_normal_rotations(k, section.drilling, first_direction(plate));
-    return k;
-  }
-
-  /// Of the cell itself, whatever the axes of its fields: the first side of a triangle, the line from the middle of the
-  /// last side of a quadrangle to that of the second.
-  static Eigen::Vector2d first_direction(const Plate<Nodes>& plate) {
-    const auto& at = plate.corners;
-    const Eigen::Vector2d along = Nodes == 3 ? Eigen::Vector2d(at.col(1) - at.col(0))
-                                             : Eigen::Vector2d(at.col(1) + at.col(2) - at.col(0) - at.col(Nodes - 1));
-    return along.normalized();
   }
 
   /// What a strain xx, yy, 2 xy along a direction and across it is along x and y.
@@ -470,17 +363,6 @@ class PlateBlock final : public ElementBlock {
     return turn;
   }
 
-  /// The least of the resistances to rotations in the plane, about the first direction of the cell and across it.
-  static void hold_normal_rotations(Matrix& k, double share, const Eigen::Vector2d& first) {
-    const Eigen::Vector2d across(-first[1], first[0]);
-    double smallest = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < Nodes; ++i) {
-      const Eigen::Matrix2d rotations = k.template block<2, 2>(6 * i + 3, 6 * i + 3);
-      smallest = std::min({smallest, first.dot(rotations * first), across.dot(rotations * across)});
-    }
-    for (int i = 0; i < Nodes; ++i) k(6 * i + 5, 6 * i + 5) += share * smallest;
-  }
-
   const Mesh& mesh_;
   bool shears_;
   bool constant_ = true;
@@ -488,7 +370,7 @@ class PlateBlock final : public ElementBlock {
   ElementMap map_;
   Quadrature points_;
   const ImposedStrains* imposed_ = nullptr;
-  std::vector<Plate<Nodes>> plates_;
+  std::vector<FlatPlate<Nodes>> plates_;
   std::vector<Matrix> matrices_;  ///< where the material is constant
 };
 

@@ -10,8 +10,9 @@
 #include "solver/elements/beam_points.hpp"
 #include "solver/elements/beam_stiffness.hpp"
 #include "solver/elements/geometric_stiffness.hpp"
-#include "solver/elements/slender.hpp"
+#include "solver/elements/slender_member.hpp"
 #include "solver/error.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 

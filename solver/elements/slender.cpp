@@ -1,4 +1,4 @@
-// Bars and straight beams on two nodes, by their exact stiffness (R3.08.01).
+// Bars and straight beams on two nodes (R3.08.01): see slender_member.hpp for the stiffness of one.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,98 +7,17 @@
 #include <fmt/format.h>
 
 #include "solver/elements/beam_points.hpp"
-#include "solver/elements/beam_stiffness.hpp"
 #include "solver/elements/energy_parts.hpp"
-#include "solver/elements/geometric_stiffness.hpp"
-#include "solver/elements/slender.hpp"
-#include "solver/elements/translation.hpp"
+#include "solver/elements/slender_member.hpp"
 #include "solver/elements/varying_section.hpp"
 #include "solver/error.hpp"
+#include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
 
 namespace {
 
 constexpr std::array<std::string_view, 1> bar_forces = {"N"};
-
-struct Segment {
-  double length;
-  Eigen::Matrix3d axes;
-};
-
-Segment segment_of(const Mesh& mesh, int cell, double roll) {
-  const auto nodes = mesh.cell(cell);
-  const Eigen::Map<const Eigen::Vector3d> first(mesh.nodes[nodes[0]].data());
-  const Eigen::Map<const Eigen::Vector3d> second(mesh.nodes[nodes[1]].data());
-  return {(second - first).norm(), own_axes(mesh, cell, roll)};
-}
-
-bool is_complete(const BeamSection& section, bool bends) {
-  return section.area > 0.0 && (!bends || (section.inertia_y > 0.0 && section.inertia_z > 0.0 &&
-                                           section.torsion > 0.0 && section.shear_y >= 0.0 && section.shear_z >= 0.0));
-}
-
-/// Bending in the planes (x, y) and (x, z) of a beam whose section varies.
-std::array<Eigen::Matrix4d, 2> bending_planes(const BeamSection& section, const IsotropicModuli& material,
-                                              double shear_modulus, double length, bool shear) {
-  const BeamSection& end = *section.end;
-  const auto plane = [&](double inertia, double end_inertia, int power, double factor, double end_factor) {
-    const bool softens = shear && factor > 0.0 && end_factor > 0.0;
-    const BendingPlane given{
-        inertia, end_inertia,        softens ? section.area / factor : 0.0, softens ? end.area / end_factor : 0.0,
-        power,   section.powers.area};
-    return bending_stiffness(given, length, material.young, softens ? shear_modulus : 0.0);
-  };
-  return {plane(section.inertia_z, end.inertia_z, section.powers.inertia_z, section.shear_y, end.shear_y),
-          plane(section.inertia_y, end.inertia_y, section.powers.inertia_y, section.shear_z, end.shear_z)};
-}
-
-BeamMatrix local_beam(const BeamSection& section, const IsotropicModuli& material, double length, bool shear) {
-  if (!varies(section)) return uniform_beam<double>(section, material, length, shear);
-  const double shear_modulus = material.young / (2 * (1 + material.poisson));
-  BeamMatrix k = BeamMatrix::Zero();
-  add_beam_spring<double>(k, material.young * axial_area(section) / length, 0, 6);
-  add_beam_spring<double>(k, shear_modulus * torsion_constant(section) / length, 3, 9);
-  const auto planes = bending_planes(section, material, shear_modulus, length, shear);
-  add_bending<double>(k, planes[0], {1, 5, 7, 11}, 1.0);
-  add_bending<double>(k, planes[1], {2, 4, 8, 10}, -1.0);
-  if (!is_eccentric(section)) return k;
-  const BeamMatrix shift = centre_from_centroid(section);
-  return shift.transpose() * k * shift;
-}
-
-/// What the stiffness of one element is made from.
-struct Member {
-  Segment segment;
-  const BeamSection* section;
-  const IsotropicElasticity* material;
-};
-
-/// Stiffness in global axes of a bar (Dim translations a node).
-template <int Dim>
-Eigen::Matrix<double, 2 * Dim, 2 * Dim> bar_matrix(const Member& member, const IsotropicModuli& material) {
-  const Eigen::Matrix<double, Dim, 1> along = member.segment.axes.row(0).template head<Dim>();
-  const Eigen::Matrix<double, Dim, Dim> block =
-      material.young * member.section->area / member.segment.length * (along * along.transpose());
-  Eigen::Matrix<double, 2 * Dim, 2 * Dim> k;
-  k << block, -block, -block, block;
-  std::array<bool, Dim> invariant;
-  invariant.fill(true);
-  make_translation_exact<2, Dim>(k, invariant);
-  return k;
-}
-
-BeamMatrix beam_matrix(const Member& member, const IsotropicModuli& material, bool shear) {
-  BeamMatrix k = local_beam(*member.section, material, member.segment.length, shear);
-  BeamMatrix turn = BeamMatrix::Zero();
-  for (int i = 0; i < 12; i += 3) turn.block<3, 3>(i, i) = member.segment.axes;
-  k = (turn.transpose() * k * turn).eval();
-  k = (0.5 * (k + k.transpose())).eval();
-  // A translation strains nothing, to the last bit: see translation.hpp.
-  k.middleCols<3>(6) = -k.leftCols<3>();
-  k.middleRows<3>(6) = -k.topRows<3>();
-  return k;
-}
 
 /// Elements on two nodes with a stiffness of their own. Command variables count by their mean over the two nodes.
 template <int Components>
@@ -115,9 +34,7 @@ class SlenderBlock final : public ElementBlock {
         map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), 2,
              gather_nodes(*input.model.mesh, cells_)) {
     for (const int cell : cells_) {
-      const BeamSection& section = slender_section(input, cell);
-      members_.push_back(
-          {segment_of(mesh_, cell, is_beam ? section.roll : 0.0), &section, &isotropic_material(input, cell)});
+      members_.push_back(slender_member(input, cell));
       const bool constant = is_constant_material(*members_.back().material);
       constant_ = constant_ && constant;
       matrices_.push_back(constant ? matrix(members_.back(), MaterialPoint()) : Matrix::Zero().eval());
@@ -231,7 +148,7 @@ class SlenderBlock final : public ElementBlock {
       for (int i = 0; i < 3 && i < Components; ++i)
         elongation += axes(element)(0, i) * (u[dofs[Components + i]] - u[dofs[i]]);
       // `force` lacks f, so that u . force = u K u - u f: half of u f is missing still.
-      const double length = members_[element].segment.length;
+      const double length = members_[element].length;
       out[element] = 0.5 * (work - expansion.force * (elongation - expansion.strain * length));
       if (imposed_ != nullptr && imposed_->acts_on(cells_[element]))
         out[element] -= works_on_imposed(*imposed_, element, mean_forces(element, force), state).sum();
@@ -258,7 +175,7 @@ class SlenderBlock final : public ElementBlock {
         Eigen::Vector4d parts = beam_energy_parts(*members_[element].section, axes(element), moved, ends);
         const Expansion expansion = expansion_of(element, state);
         const double elongation = axes(element).row(0).dot(moved.template segment<3>(6));
-        parts[0] -= 0.5 * expansion.force * (elongation - expansion.strain * members_[element].segment.length);
+        parts[0] -= 0.5 * expansion.force * (elongation - expansion.strain * members_[element].length);
         if (imposed_ != nullptr && imposed_->acts_on(cells_[element])) {
           const Eigen::Vector3d work = works_on_imposed(*imposed_, element, mean_forces(element, force), state);
           parts -= Eigen::Vector4d(work[0], 0.0, work[1], work[2]);
@@ -309,7 +226,7 @@ class SlenderBlock final : public ElementBlock {
  private:
   /// N, MFY and MFZ of the imposed strain at the middle of an element.
   Eigen::Vector3d imposed_resultants(const ImposedStrains& imposed, int element, const VariableState& state) const {
-    const Member& member = members_[element];
+    const SlenderMember& member = members_[element];
     if (varies(*member.section) && imposed.acts_on(cells_[element])) {
       throw Error("unsupported",
                   fmt::format("an initial strain acts on the beam of cell {}, whose section varies",
@@ -340,7 +257,7 @@ class SlenderBlock final : public ElementBlock {
   /// left of them alone.
   Eigen::Vector3d works_on_imposed(const ImposedStrains& imposed, int element, const Eigen::Vector3d& forces,
                                    const VariableState& state) const {
-    return members_[element].segment.length *
+    return members_[element].length *
            imposed_strain(imposed, element).cwiseProduct(forces - 0.5 * imposed_resultants(imposed, element, state));
   }
 
@@ -354,34 +271,21 @@ class SlenderBlock final : public ElementBlock {
     return material.young.is_constant() && material.poisson.is_constant();
   }
 
-  Matrix matrix(const Member& member, const MaterialPoint& at) const {
+  Matrix matrix(const SlenderMember& member, const MaterialPoint& at) const {
     if constexpr (is_beam)
-      return beam_matrix(member, moduli(*member.material, at), shear_);
+      return beam_stiffness(member, moduli(*member.material, at), shear_);
     else
-      return bar_matrix<Components>(member, moduli(*member.material, at));
+      return bar_stiffness<Components>(member, moduli(*member.material, at));
   }
 
-  /// What the section forces add: `forces` as stresses() gives those of the element.
+  /// What the section forces add: `forces` as stresses() gives them of the element.
   Matrix geometric_matrix(int element, const double* forces) const {
-    const Member& member = members_[element];
     if constexpr (is_beam) {
-      if (varies(*member.section) || is_eccentric(*member.section))
-        throw Error("unsupported",
-                    "the stiffness that stresses add is known of beams with a constant section alone whose centre of "
-                    "torsion is the centroid");
       const auto section_forces = [](const double* f) { return SectionForces{f[0], f[1], f[2], f[3], f[4], f[5]}; };
-      Matrix k =
-          beam_geometric_stiffness(*member.section, member.segment.length,
-                                   {section_forces(forces), section_forces(forces + 6 * (beam_point_count - 1))});
-      Matrix turn = Matrix::Zero();
-      for (int i = 0; i < size; i += 3) turn.template block<3, 3>(i, i) = member.segment.axes;
-      return turn.transpose() * k * turn;
+      return beam_geometric_stiffness(members_[element],
+                                      {section_forces(forces), section_forces(forces + 6 * (beam_point_count - 1))});
     } else {
-      const Eigen::Matrix<double, Components, Components> block =
-          forces[0] / member.segment.length * Eigen::Matrix<double, Components, Components>::Identity();
-      Matrix k;
-      k << block, -block, -block, block;
-      return k;
+      return bar_geometric_stiffness<Components>(members_[element], forces[0]);
     }
   }
 
@@ -403,7 +307,7 @@ class SlenderBlock final : public ElementBlock {
   }
 
   Expansion expansion_of(int element, const VariableState& state) const {
-    const Member& member = members_[element];
+    const SlenderMember& member = members_[element];
     if (state.empty()) return {};
     return named(element, [&] {
       const MaterialPoint at = material_point(element, state);
@@ -426,7 +330,7 @@ class SlenderBlock final : public ElementBlock {
     }
   }
 
-  const Eigen::Matrix3d& axes(int element) const { return members_[element].segment.axes; }
+  const Eigen::Matrix3d& axes(int element) const { return members_[element].axes; }
 
   /// Forces on both ends, from the translation of the second end relative to the first.
   Forces end_forces(int element, const Eigen::VectorXd& u, const std::array<int, size>& dofs,
@@ -467,26 +371,11 @@ class SlenderBlock final : public ElementBlock {
   std::vector<int> cells_;
   ElementMap map_;
   const ImposedStrains* imposed_ = nullptr;
-  std::vector<Member> members_;
+  std::vector<SlenderMember> members_;
   std::vector<Matrix> matrices_;  ///< where the material is constant
 };
 
 }  // namespace
-
-const BeamSection& slender_section(const BlockInput& input, int cell) {
-  const std::string name = input.model.mesh->cell_name(cell);
-  const auto found = input.properties.sections.find(cell);
-  if (found == input.properties.sections.end()) {
-    throw Error("missing-properties", fmt::format("the bar or beam on cell {} has no cross-section", name));
-  }
-  const BeamSection& section = found->second;
-  const bool bends = is_beam(input.model.formulations[cell]);
-  if (!is_complete(section, bends) || (varies(section) && !is_complete(*section.end, bends))) {
-    throw Error("invalid-properties", fmt::format("the cross-section of cell {} needs a positive area{}", name,
-                                                  bends ? ", second moments of area and torsion constant" : ""));
-  }
-  return section;
-}
 
 std::unique_ptr<ElementBlock> make_slender_block(const BlockInput& input, std::vector<int> cells) {
   switch (input.model.formulations[cells.front()]) {

@@ -8,7 +8,7 @@
 
 #include "solver/contact/normals.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_room.hpp"
 #include "solver/model/stress_names.hpp"
 
 namespace comma::solver {

@@ -81,4 +81,9 @@ MaterialPoint ContinuumPoints::material_point(int cell, const VariableState& sta
   return result;
 }
 
+MaterialPoint ContinuumPoints::material_point(int cell, const VariableState& state, int point) {
+  const ContinuumSample& sample = samples(cell)[static_cast<std::size_t>(point)];
+  return material_point(cell, state, sample, locate(cell, sample).at, point);
+}
+
 }  // namespace comma::solver

@@ -59,6 +59,8 @@ class ContinuumPoints {
   /// What the material knows at a point.
   MaterialPoint material_point(int cell, const VariableState& state, const ContinuumSample& sample,
                                const Eigen::Vector3d& at, int point) const;
+  /// The same of a sample by its number.
+  MaterialPoint material_point(int cell, const VariableState& state, int point);
 
  private:
   const Model& model_;

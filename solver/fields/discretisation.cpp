@@ -4,7 +4,8 @@
 #include "solver/error.hpp"
 #include "solver/fields/continuum_points.hpp"
 #include "solver/fields/extrapolation.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_room.hpp"
+#include "solver/fields/field_rows.hpp"
 #include "solver/mesh/reference_element.hpp"
 
 namespace comma::solver {

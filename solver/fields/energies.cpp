@@ -8,6 +8,7 @@
 #include "solver/elements/cell_quadrature.hpp"
 #include "solver/elements/hourglass.hpp"
 #include "solver/error.hpp"
+#include "solver/fields/plastic_points.hpp"
 #include "solver/fields/tensor_reader.hpp"
 #include "solver/materials/behaviour/hardening_energy.hpp"
 #include "solver/mesh/place.hpp"
@@ -47,9 +48,8 @@ class MaterialAtPoints {
   bool covers(int cell) const { return points_.covers(cell); }
 
   MaterialPoint at(int cell, int g) {
-    const auto& samples = points_.samples(cell);
-    check_points(input_.model, field_, cell, samples.size());
-    return points_.material_point(cell, input_.state, samples[g], points_.locate(cell, samples[g]).at, g);
+    check_points(input_.model, field_, cell, points_.samples(cell).size());
+    return points_.material_point(cell, input_.state, g);
   }
 
  private:
@@ -240,14 +240,9 @@ ElementField hardening_energy_density(const FieldInput& input, const ElementFiel
     const int count = hardens ? variables.points(cell) : 0;
     energies.starts.push_back(energies.starts.back() + count);
     if (count == 0) continue;
-    const Material& material = *input.materials.by_cell[static_cast<std::size_t>(cell)];
-    const auto& elasticity = std::get<IsotropicElasticity>(*material.elasticity);
-    for (int g = 0; g < count; ++g) {
-      const ContinuumSample& sample = points.samples(cell)[static_cast<std::size_t>(g)];
-      const MaterialPoint at = points.material_point(cell, input.state, sample, points.locate(cell, sample).at, g);
-      energies.values.push_back(hardening_energy(
-          plastic_point(elasticity, material.plasticity, behaviour.relation, at).curve, variables.at(cell, g, p)));
-    }
+    for (int g = 0; g < count; ++g)
+      energies.values.push_back(hardening_energy(plastic_point_at(input, points, behaviour.relation, cell, g).curve,
+                                                 variables.at(cell, g, p)));
   }
   return energies;
 }

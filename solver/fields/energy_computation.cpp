@@ -10,6 +10,7 @@
 #include "solver/fields/extrapolation.hpp"
 #include "solver/fields/field_algebra.hpp"
 #include "solver/fields/field_computation.hpp"
+#include "solver/fields/field_parts.hpp"
 #include "solver/fields/loading_indicators.hpp"
 #include "solver/fields/nodal_forces.hpp"
 

@@ -2,76 +2,21 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <optional>
-#include <set>
 
 #include <fmt/format.h>
 
-#include "solver/elements/beam_points.hpp"
-#include "solver/elements/discrete_forces.hpp"
-#include "solver/elements/quadrature.hpp"
 #include "solver/error.hpp"
-#include "solver/model/stress_names.hpp"
+#include "solver/fields/field_rows.hpp"
 
 namespace comma::solver {
 
 namespace {
 
-std::vector<std::string>& components_of(Field& field) {
-  return std::visit([](auto& values) -> std::vector<std::string>& { return values.components; }, field);
-}
 std::string& quantity_of(Field& field) {
   return std::visit([](auto& values) -> std::string& { return values.quantity; }, field);
 }
-int component_of(const Field& field, std::string_view name) {
-  return std::visit([&](const auto& values) { return values.component(name); }, field);
-}
-
-/// The stresses or strains of an element that carries stiffness; nothing for other quantities.
-std::set<std::string_view> known_components(const ElementField& field, Formulation formulation, CellType type) {
-  static const std::set<std::string_view> plane_strains = {"EPXX", "EPYY", "EPZZ", "EPXY"},
-                                          solid_strains = {"EPXX", "EPYY", "EPZZ", "EPXY", "EPXZ", "EPYZ"};
-  const int continuum = continuum_dimension(formulation);
-  if (field.support == Support::cell) return {};
-  if (field.quantity == "EPSI_R")
-    return continuum == 3 ? solid_strains : continuum == 2 ? plane_strains : std::set<std::string_view>();
-  if (field.quantity != "SIEF_R") return {};
-  std::set<std::string_view> names;
-  const auto add = [&](auto&& others) { names.insert(others.begin(), others.end()); };
-  if (continuum == 2) add(plane_stress_names);
-  if (continuum == 3) add(solid_stress_names);
-  if (mixed_field_count(formulation) > 0) add(std::array{std::string_view("SIP")});
-  if (is_stabilised(formulation, type) && field.support == Support::gauss_point) add(hourglass_stress_names);
-  if (is_beam(formulation)) add(beam_force_names);
-  if (is_bar(formulation)) add(std::array{beam_force_names[0]});
-  if (is_discrete(formulation)) add(discrete_force_names(formulation));
-  return names;
-}
-
-/// The rows of a field: place p has those from starts()[p] to starts()[p + 1].
-class FieldRows {
- public:
-  explicit FieldRows(const Field& field) {
-    if (const auto* element = std::get_if<ElementField>(&field)) {
-      starts_ = element->starts;
-      return;
-    }
-    const auto& nodal = std::get<NodalField>(field);
-    starts_.resize(nodal.values.size() / nodal.components.size() + 1);
-    std::iota(starts_.begin(), starts_.end(), 0);
-  }
-  int place_count() const { return static_cast<int>(starts_.size()) - 1; }
-  int begin(int place) const { return starts_[place]; }
-  int end(int place) const { return starts_[place + 1]; }
-  int count(int place) const { return end(place) - begin(place); }
-  int total() const { return starts_.back(); }
-
- private:
-  std::vector<int> starts_;
-};
-
 bool same_kind(const Field& a, const Field& b) {
   if (a.index() != b.index()) return false;
   const auto* element = std::get_if<ElementField>(&a);
@@ -93,63 +38,7 @@ void each_place(int count, const std::vector<int>* places, Visit&& visit) {
   }
 }
 
-int point_count(const Model& model, int cell, Support support, bool skin) {
-  const Formulation formulation = model.formulations[cell];
-  const bool is_skin = model.is_skin(cell);
-  if (formulation == Formulation::none || (is_skin && !skin)) return 0;
-  const CellType type = model.mesh->cell_types[cell];
-  if (support == Support::cell) return 1;
-  if (support == Support::element_node) return node_count(type);
-  if (is_skin) return static_cast<int>(quadrature(type, boundary_family(type)).size());
-  if (continuum_dimension(formulation) > 0) {
-    return static_cast<int>(quadrature(type, stiffness_family(type, formulation)).size());
-  }
-  if (is_plate(formulation)) return static_cast<int>(quadrature(type, plate_family(type)).size());
-  return is_beam(formulation) ? beam_point_count : 1;
-}
-
 }  // namespace
-
-ElementField empty_element_field(const Model& model, std::string quantity, Support support,
-                                 std::vector<std::string> components, bool skin) {
-  ElementField field{std::move(quantity), support, std::move(components), {0}, {}};
-  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
-    field.starts.push_back(field.starts.back() + point_count(model, cell, support, skin));
-  }
-  field.values.assign(static_cast<std::size_t>(field.starts.back()) * field.components.size(), absent);
-  return field;
-}
-
-ElementField empty_cell_field(const Mesh& mesh, std::string quantity, std::vector<std::string> components) {
-  ElementField field{std::move(quantity), Support::cell, std::move(components), {}, {}};
-  field.starts.resize(mesh.cell_types.size() + 1);
-  std::iota(field.starts.begin(), field.starts.end(), 0);
-  field.values.assign(mesh.cell_types.size() * field.components.size(), absent);
-  return field;
-}
-
-NodalField empty_nodal_field(const Mesh& mesh, std::string quantity, std::vector<std::string> components) {
-  std::vector<double> values(mesh.nodes.size() * components.size(), absent);
-  return {std::move(quantity), std::move(components), std::move(values)};
-}
-
-const std::vector<std::string>& components_of(const Field& field) {
-  return std::visit([](const auto& values) -> const std::vector<std::string>& { return values.components; }, field);
-}
-
-NodalField node_coordinates(const Mesh& mesh) {
-  NodalField field = empty_nodal_field(mesh, "GEOM_R", {"X", "Y", "Z"});
-  auto target = field.values.begin();
-  for (const Point& at : mesh.nodes) target = std::copy(at.begin(), at.end(), target);
-  return field;
-}
-
-Field uniform_like(const Field& other, std::string component, double value) {
-  Field field = other;
-  values_of(field).assign(static_cast<std::size_t>(FieldRows(other).total()), value);
-  components_of(field) = {std::move(component)};
-  return field;
-}
 
 std::optional<FieldEntry> first_infinite(const Field& field) {
   const FieldRows rows(field);
@@ -177,104 +66,6 @@ void assign(Field& field, int component, double value, const std::vector<int>* p
   });
 }
 
-void fill_absent(Field& field, double value) {
-  for (double& each : values_of(field)) {
-    if (std::isnan(each)) each = value;
-  }
-}
-
-void fill_with_zeros(ElementField& field, const Model& model) {
-  std::map<std::pair<Formulation, CellType>, std::set<std::string_view>> known;
-  std::set<std::string_view> wanted;
-  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
-    if (field.points(cell) == 0 || model.is_skin(cell)) continue;
-    const std::pair kind(model.formulations[static_cast<std::size_t>(cell)],
-                         model.mesh->cell_types[static_cast<std::size_t>(cell)]);
-    if (known.contains(kind)) continue;
-    known[kind] = known_components(field, kind.first, kind.second);
-    wanted.insert(known[kind].begin(), known[kind].end());
-  }
-  const std::size_t before = field.components.size();
-  for (const std::string_view name : wanted)
-    if (field.component(name) < 0) field.components.emplace_back(name);
-  std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(field.starts.back()) * field.components.size());
-  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
-    const auto kind = known.find(
-        {model.formulations[static_cast<std::size_t>(cell)], model.mesh->cell_types[static_cast<std::size_t>(cell)]});
-    std::vector<double> unsaid;
-    for (const std::string& name : field.components) {
-      const bool is_own = kind == known.end() || kind->second.empty() || kind->second.contains(name);
-      unsaid.push_back(is_own || !wanted.contains(name) ? 0.0 : absent);
-    }
-    for (int row = field.starts[static_cast<std::size_t>(cell)]; row < field.starts[static_cast<std::size_t>(cell) + 1];
-         ++row)
-      for (std::size_t c = 0; c < unsaid.size(); ++c) {
-        const double said = c < before ? field.values[static_cast<std::size_t>(row) * before + c] : absent;
-        values.push_back(std::isnan(said) ? unsaid[c] : said);
-      }
-  }
-  field.values = std::move(values);
-}
-
-std::span<const double> values_of_cell(const ElementField& field, int cell) {
-  const std::size_t width = field.components.size(), first = static_cast<std::size_t>(field.starts[cell]) * width,
-                    end = static_cast<std::size_t>(field.starts[cell + 1]) * width;
-  return std::span(field.values).subspan(first, end - first);
-}
-
-bool has_other_than_zero(const ElementField& field, int cell) {
-  return std::ranges::any_of(values_of_cell(field, cell), [](double value) { return std::abs(value) > 0.0; });
-}
-
-bool is_zero(const ElementField& field, int cell) {
-  return !has_other_than_zero(field, cell) &&
-         std::ranges::any_of(values_of_cell(field, cell), [](double value) { return value == 0.0; });
-}
-
-void drop_empty_cells(ElementField& field) {
-  const auto cell_count = static_cast<int>(field.starts.size()) - 1;
-  const auto width = static_cast<std::ptrdiff_t>(field.components.size());
-  std::vector<int> starts = {0};
-  std::vector<double> values;
-  for (int cell = 0; cell < cell_count; ++cell) {
-    const auto begin = field.values.begin() + field.starts[cell] * width;
-    const auto end = field.values.begin() + field.starts[cell + 1] * width;
-    const bool carries = std::any_of(begin, end, [](double value) { return !std::isnan(value); });
-    if (carries) values.insert(values.end(), begin, end);
-    starts.push_back(starts.back() + (carries ? field.points(cell) : 0));
-  }
-  field.starts = std::move(starts);
-  field.values = std::move(values);
-}
-
-ElementField on_cells(const ElementField& field, std::span<const int> cells) {
-  std::vector<bool> chosen(field.starts.size() - 1, false);
-  for (const int cell : cells) chosen[static_cast<std::size_t>(cell)] = true;
-  const auto width = static_cast<std::ptrdiff_t>(field.components.size());
-  ElementField part{field.quantity, field.support, field.components, {0}, {}};
-  for (int cell = 0; cell < static_cast<int>(chosen.size()); ++cell) {
-    if (chosen[static_cast<std::size_t>(cell)]) {
-      part.values.insert(part.values.end(), field.values.begin() + field.starts[cell] * width,
-                         field.values.begin() + field.starts[cell + 1] * width);
-    }
-    part.starts.push_back(static_cast<int>(static_cast<std::ptrdiff_t>(part.values.size()) / width));
-  }
-  const auto has_several = [&](int cell) { return part.points(cell) > 0 && field.values_a_point(cell) > 1; };
-  if (std::ranges::any_of(cells, has_several)) part.sub_points = field.sub_points;
-  return part;
-}
-
-NodalField on_nodes(const NodalField& field, std::span<const int> nodes) {
-  const std::size_t width = field.components.size();
-  NodalField part{field.quantity, field.components, std::vector<double>(field.values.size(), absent)};
-  for (const int node : nodes) {
-    const auto begin = static_cast<std::ptrdiff_t>(static_cast<std::size_t>(node) * width);
-    std::copy_n(field.values.begin() + begin, width, part.values.begin() + begin);
-  }
-  return part;
-}
-
 std::optional<int> cell_of_other_values(const ElementField& field, const ElementField& given) {
   // Values as near to each other as this share of the largest are the same.
   constexpr double same = 1e-6;
@@ -291,42 +82,6 @@ std::optional<int> cell_of_other_values(const ElementField& field, const Element
       if (std::abs(values[k] - field.values[k]) > same * largest) return static_cast<int>(cell);
   }
   return std::nullopt;
-}
-
-ElementField side_by_side(const ElementField& first, const ElementField& second) {
-  if (first.values.empty()) return second;
-  ElementField both{first.quantity, first.support, first.components, {0}, {}};
-  for (const std::string& name : second.components)
-    if (both.component(name) < 0) both.components.push_back(name);
-  const bool is_layered = !first.sub_points.empty() || !second.sub_points.empty();
-  for (int cell = 0; cell + 1 < static_cast<int>(first.starts.size()); ++cell) {
-    const ElementField& part = first.points(cell) > 0 ? first : second;
-    for (int point = 0; point < part.points(cell); ++point) {
-      for (const std::string& name : both.components) {
-        const int column = part.component(name);
-        both.values.push_back(column < 0 ? absent : part.at(cell, point, column));
-      }
-    }
-    both.starts.push_back(both.starts.back() + part.points(cell));
-    if (is_layered) both.sub_points.push_back(part.values_a_point(cell));
-  }
-  return both;
-}
-
-Field with_components(const Field& field, std::span<const int> components) {
-  const std::size_t width = components_of(field).size();
-  const auto rows = static_cast<std::size_t>(FieldRows(field).total());
-  Field part = field;
-  components_of(part).clear();
-  for (const int component : components)
-    components_of(part).push_back(components_of(field)[static_cast<std::size_t>(component)]);
-  auto& values = values_of(part);
-  values.clear();
-  for (std::size_t row = 0; row < rows; ++row) {
-    for (const int component : components)
-      values.push_back(values_of(field)[row * width + static_cast<std::size_t>(component)]);
-  }
-  return part;
 }
 
 namespace {

@@ -16,23 +16,6 @@
 
 namespace comma::solver {
 
-/// An element field of a model with room for values, all absent: one point a cell, one a node of the cell, or the Gauss
-/// points of its element's stresses (of a skin cell: those of its pressure). Without skin, only cells that carry
-/// stiffness have room.
-ElementField empty_element_field(const Model& model, std::string quantity, Support support,
-                                 std::vector<std::string> components, bool skin);
-/// The same with one value a cell of the mesh.
-ElementField empty_cell_field(const Mesh& mesh, std::string quantity, std::vector<std::string> components);
-NodalField empty_nodal_field(const Mesh& mesh, std::string quantity, std::vector<std::string> components);
-
-/// The names of the components of a field of either kind.
-const std::vector<std::string>& components_of(const Field& field);
-
-/// Components X Y Z.
-NodalField node_coordinates(const Mesh& mesh);
-/// One component with the same value wherever the other field has points.
-Field uniform_like(const Field& other, std::string component, double value);
-
 /// A number made of others that are there: infinite where it is none (a difference of infinite numbers), for NaN says
 /// that nothing is there.
 inline double made_number(double value) { return std::isnan(value) ? std::numeric_limits<double>::infinity() : value; }
@@ -49,39 +32,9 @@ std::optional<FieldEntry> first_infinite(const Field& field);
 /// Gives a component one value at all points of the places (all that there are without `places`).
 void assign(Field& field, int component, double value, const std::vector<int>* places = nullptr);
 
-/// Absent values become `value`.
-void fill_absent(Field& field, double value);
-/// Absent values become zero, and so do components that the field does not name, of stresses (SIEF_R) and strains
-/// (EPSI_R) at the points or nodes of elements that know them. What other elements of the model know, and that of the
-/// cell does not, stays absent.
-void fill_with_zeros(ElementField& field, const Model& model);
-
-/// What a cell has, point after point.
-std::span<const double> values_of_cell(const ElementField& field, int cell);
-
-/// Whether a cell has a value that is neither zero nor absent.
-bool has_other_than_zero(const ElementField& field, int cell);
-
-/// Whether a cell has values, none of them other than zero.
-bool is_zero(const ElementField& field, int cell);
-
-/// Takes away the room of cells that have no value at all.
-void drop_empty_cells(ElementField& field);
-
-/// The part of a field on some cells, at some nodes.
-ElementField on_cells(const ElementField& field, std::span<const int> cells);
-NodalField on_nodes(const NodalField& field, std::span<const int> nodes);
-
 /// A cell where a given field has other values than a field does, beyond a millionth of the largest of both; empty
 /// where there is none.
 std::optional<int> cell_of_other_values(const ElementField& field, const ElementField& given);
-
-/// Two fields that lie on different cells, as one: with the components of both, absent where the other lies; the second
-/// alone where the first has no values.
-ElementField side_by_side(const ElementField& first, const ElementField& second);
-
-/// The components at these indices, in this order.
-Field with_components(const Field& field, std::span<const int> components);
 
 struct FieldTerm {
   const Field* field = nullptr;

@@ -14,6 +14,7 @@
 #include "solver/fields/equivalent.hpp"
 #include "solver/fields/extrapolation.hpp"
 #include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_parts.hpp"
 #include "solver/fields/nodal_forces.hpp"
 #include "solver/fields/plate_forces.hpp"
 #include "solver/fields/strains.hpp"

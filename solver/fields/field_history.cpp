@@ -5,6 +5,7 @@
 
 #include "solver/error.hpp"
 #include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_rows.hpp"
 
 namespace comma::solver {
 

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "solver/error.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_room.hpp"
 
 namespace comma::solver {
 

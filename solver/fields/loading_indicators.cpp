@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/fields/plastic_points.hpp"
 #include "solver/fields/tensor_reader.hpp"
 #include "solver/materials/behaviour/hardening_energy.hpp"
 #include "solver/materials/behaviour/von_mises.hpp"
@@ -105,18 +106,17 @@ ElementField indicator(const FieldInput& input, const PlasticFields& fields, Val
     if (count == 0) continue;
     const Relation relation = behaviour_of(input, fields, cell).relation;
     const Material& material = *input.materials.by_cell[static_cast<std::size_t>(cell)];
-    const auto* elasticity = std::get_if<IsotropicElasticity>(&*material.elasticity);
+    const bool may_flow =
+        relation != Relation::elastic && std::holds_alternative<IsotropicElasticity>(*material.elasticity);
     for (int g = 0; g < count; ++g) {
-      if (relation == Relation::elastic || elasticity == nullptr) {
+      if (!may_flow) {
         result.values.push_back(0.0);
         continue;
       }
-      const ContinuumSample& sample = points.samples(cell)[static_cast<std::size_t>(g)];
-      const MaterialPoint at = points.material_point(cell, input.state, sample, points.locate(cell, sample).at, g);
-      result.values.push_back(
-          value_of(PointState{stress.at(cell, g), plastic.at(cell, g), fields.variables.at(cell, g, p),
-                              plastic_point(*elasticity, material.plasticity, relation, at),
-                              solid_compliance(material_of(input, cell), at)}));
+      const MaterialPoint at = points.material_point(cell, input.state, g);
+      result.values.push_back(value_of(PointState{
+          stress.at(cell, g), plastic.at(cell, g), fields.variables.at(cell, g, p),
+          plastic_point_at(input, points, relation, cell, g), solid_compliance(material_of(input, cell), at)}));
     }
   }
   return result;
@@ -263,11 +263,7 @@ class LoadingOfCell {
     return values;
   }
   double initial_yield(int g) const {
-    const Material& material = *input_.materials.by_cell[static_cast<std::size_t>(cell_)];
-    const ContinuumSample& sample = points_.samples(cell_)[static_cast<std::size_t>(g)];
-    const MaterialPoint at = points_.material_point(cell_, input_.state, sample, points_.locate(cell_, sample).at, g);
-    const auto& elasticity = std::get<IsotropicElasticity>(*material.elasticity);
-    return hardening(plastic_point(elasticity, material.plasticity, relation_, at).curve, 0.0).first;
+    return hardening(plastic_point_at(input_, points_, relation_, cell_, g).curve, 0.0).first;
   }
 
   const FieldInput& input_;

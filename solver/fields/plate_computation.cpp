@@ -6,8 +6,8 @@
 #include <ranges>
 
 #include "solver/fields/extrapolation.hpp"
-#include "solver/fields/field_algebra.hpp"
 #include "solver/fields/field_computation.hpp"
+#include "solver/fields/field_parts.hpp"
 #include "solver/fields/nodal_forces.hpp"
 #include "solver/fields/plate_forces.hpp"
 #include "solver/fields/plate_stresses.hpp"

@@ -9,7 +9,7 @@
 #include <Eigen/Dense>
 
 #include "solver/error.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_parts.hpp"
 #include "solver/model/stress_names.hpp"
 
 namespace comma::solver {

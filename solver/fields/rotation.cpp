@@ -199,14 +199,10 @@ Eigen::Vector3d across(const Mesh& mesh, const Eigen::Vector3d& tangent, const s
   return part.normalized();
 }
 
-}  // namespace
-
-namespace {
-
-/// Axes from tangents, one a node; where a tangent vanishes (the line turns back) it is that of the segment before.
-NodeAxes axes_along(const Mesh& mesh, std::span<const int> nodes, std::span<const Eigen::Vector3d> tangents,
-                    const std::optional<Eigen::Vector3d>& y) {
-  const auto directions = segment_directions(mesh, nodes);
+/// Axes from tangents, one a node, and the directions of the segments between nodes; where a tangent vanishes (the line
+/// turns back) it is that of the segment before.
+NodeAxes axes_along(const Mesh& mesh, std::span<const int> nodes, std::span<const Eigen::Vector3d> directions,
+                    std::span<const Eigen::Vector3d> tangents, const std::optional<Eigen::Vector3d>& y) {
   std::map<int, Eigen::Matrix3d> axes_of;
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     Eigen::Matrix3d axes;
@@ -225,7 +221,7 @@ NodeAxes line_axes(const Mesh& mesh, std::span<const int> nodes, const std::opti
   std::vector<Eigen::Vector3d> tangents;
   for (std::size_t i = 0; i < nodes.size(); ++i)
     tangents.push_back(directions[i == 0 ? 0 : i - 1] + directions[std::min(i, directions.size() - 1)]);
-  return axes_along(mesh, nodes, tangents, y);
+  return axes_along(mesh, nodes, directions, tangents, y);
 }
 
 NodeAxes chord_axes(const Mesh& mesh, std::span<const int> nodes, const std::optional<Eigen::Vector3d>& y) {
@@ -233,7 +229,7 @@ NodeAxes chord_axes(const Mesh& mesh, std::span<const int> nodes, const std::opt
   const auto at = [&](std::size_t i) { return Eigen::Vector3d(mesh.nodes[nodes[i]].data()); };
   for (std::size_t i = 0; i < nodes.size(); ++i)
     tangents.push_back(at(std::min(i + 1, nodes.size() - 1)) - at(i == 0 ? 0 : i - 1));
-  return axes_along(mesh, nodes, tangents, y);
+  return axes_along(mesh, nodes, segment_directions(mesh, nodes), tangents, y);
 }
 
 std::function<Eigen::Vector3d(int)> line_normals(const Mesh& mesh, std::span<const int> nodes,

@@ -197,8 +197,7 @@ ElementField plastic_strains(const FieldInput& input, const NodalField& displace
     const auto& samples = points.samples(cell);
     for (std::size_t g = 0; g < samples.size(); ++g) {
       const int point = static_cast<int>(g);
-      const MaterialPoint at =
-          points.material_point(cell, input.state, samples[g], points.locate(cell, samples[g]).at, point);
+      const MaterialPoint at = points.material_point(cell, input.state, point);
       const int own = dimension(input.model.mesh->cell_types[cell]) == 3 ? 6 : 4;
       Vector6d stress = Vector6d::Zero();
       for (int i = 0; i < own; ++i) stress[i] = columns[i] < 0 ? absent : stresses.at(cell, point, columns[i]);

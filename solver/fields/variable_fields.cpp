@@ -21,9 +21,7 @@ ElementField at_points(const FieldInput& input, std::string quantity, std::vecto
     field.starts.push_back(field.starts.back() + static_cast<int>(count));
     field.values.resize(static_cast<std::size_t>(field.starts.back()) * width, absent);
     for (std::size_t g = 0; g < count; ++g) {
-      const auto& sample = points.samples(cell)[g];
-      const Eigen::Vector3d place = points.locate(cell, sample).at;
-      const MaterialPoint at = points.material_point(cell, input.state, sample, place, static_cast<int>(g));
+      const MaterialPoint at = points.material_point(cell, input.state, static_cast<int>(g));
       write(cell, at, field.values.data() + (static_cast<std::size_t>(field.starts[cell]) + g) * width);
     }
   }

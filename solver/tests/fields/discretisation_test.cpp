@@ -7,7 +7,7 @@
 
 #include "solver/error.hpp"
 #include "solver/fields/continuum_points.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/field_room.hpp"
 #include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;

@@ -5,38 +5,17 @@
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
+#include "solver/fields/field_room.hpp"
 
 using namespace comma::solver;
 
 namespace {
-
-/// Two triangles and one of their edges.
-Model square_of_triangles() {
-  auto mesh = std::make_shared<Mesh>();
-  mesh->dimension = 2;
-  mesh->nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
-  mesh->add_cell(CellType::tria6, std::array{0, 1, 2, 0, 1, 2});
-  mesh->add_cell(CellType::tria3, std::array{0, 2, 3});
-  mesh->add_cell(CellType::seg2, std::array{0, 1});
-  return {mesh, std::vector<Formulation>(3, Formulation::plane_strain)};
-}
 
 NodalField nodal(std::vector<std::string> components, std::vector<double> values) {
   return {"NEUT_R", std::move(components), std::move(values)};
 }
 
 }  // namespace
-
-TEST_CASE("an element field has room at the points of its elements", "[fields]") {
-  const Model model = square_of_triangles();
-  const ElementField at_points = empty_element_field(model, "SIEF_R", Support::gauss_point, {"SIXX"}, false);
-  CHECK(at_points.points(0) == 3);
-  CHECK(at_points.points(1) == 1);
-  CHECK(at_points.points(2) == 0);
-  const ElementField at_nodes = empty_element_field(model, "NEUT_R", Support::element_node, {"X1"}, true);
-  CHECK(at_nodes.points(0) == 6);
-  CHECK(at_nodes.points(2) == 2);
-}
 
 TEST_CASE("a combination adds components where terms have them", "[fields]") {
   const Field first = nodal({"X1", "X2"}, {1, absent, 2, 5});
@@ -51,7 +30,7 @@ TEST_CASE("a combination adds components where terms have them", "[fields]") {
 
 TEST_CASE("fields at different places do not combine", "[fields]") {
   const Field nodes = nodal({"X1"}, {1, 2});
-  const Field cells = empty_cell_field(*square_of_triangles().mesh, "NEUT_R", {"X1"});
+  const Field cells = ElementField{"NEUT_R", Support::cell, {"X1"}, {0, 1, 2}, {3, 4}};
   CHECK_THROWS_WITH(linear_combination(std::vector<FieldTerm>{{&nodes, 1.0}, {&cells, 1.0}}),
                     Catch::Contains("same places"));
 }
@@ -118,32 +97,4 @@ TEST_CASE("a piece says at how many points springs have forces, and other elemen
   CHECK(room.starts == std::vector{0, 2, 3, 4});
   Field target = room;
   CHECK_THROWS_WITH(put_piece(target, pieces.front()), Catch::Contains("2 points in one field and 1 in the other"));
-}
-
-TEST_CASE("zeros stand where the element knows the component, and not where another one does", "[fields]") {
-  auto mesh = std::make_shared<Mesh>();
-  mesh->nodes = std::vector<Point>(8);
-  mesh->add_cell(CellType::hexa8, std::array{0, 1, 2, 3, 4, 5, 6, 7});
-  mesh->add_cell(CellType::seg2, std::array{0, 1});
-  const Model model{mesh, {Formulation::solid_reduced, Formulation::spring_rotation_3d}};
-  ElementField field = empty_element_field(model, "SIEF_R", Support::gauss_point, {"SIXX", "VMIS"}, false);
-  field.values[0] = 7.0;
-  fill_with_zeros(field, model);
-  CHECK(field.at(0, 0, field.component("SIXX")) == 7.0);
-  CHECK(field.at(0, 0, field.component("FSTAB72")) == 0.0);
-  CHECK(std::isnan(field.at(0, 0, field.component("MFZ"))));
-  CHECK(field.at(1, 0, field.component("MFZ")) == 0.0);
-  CHECK(std::isnan(field.at(1, 0, field.component("SIXX"))));
-  CHECK(field.at(1, 0, field.component("VMIS")) == 0.0);  // no stress of an element
-  CHECK_FALSE(is_zero(field, 0));
-  CHECK(is_zero(field, 1));
-}
-
-TEST_CASE("cells without values give their room back", "[fields]") {
-  ElementField field = empty_cell_field(*square_of_triangles().mesh, "TEMP_R", {"TEMP"});
-  field.values = {absent, 4.0, absent};
-  drop_empty_cells(field);
-  CHECK(field.points(0) == 0);
-  CHECK(field.at(1, 0, 0) == 4.0);
-  CHECK(field.values.size() == 1);
 }
