@@ -43,7 +43,8 @@ solver::CellBehaviour behaviour_of(const Keywords& keywords) {
   const auto deformation = std::ranges::find(kinematics, keywords.text("DEFORMATION"),
                                              &std::pair<std::string_view, solver::Kinematics>::first);
   solver::CellBehaviour behaviour{deformation->second, relation->second};
-  behaviour.return_tolerance = keywords.real(keywords.has("RESI_INTE_RELA") ? "RESI_INTE_RELA" : "RESI_INTE");
+  for (const char* const name : {"RESI_INTE", "RESI_INTE_RELA"})
+    if (keywords.has(name)) behaviour.return_tolerance = keywords.real(name);
   return behaviour;
 }
 

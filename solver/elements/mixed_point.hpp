@@ -46,8 +46,8 @@ MixedResponse mixed_response(const Eigen::Matrix3d& gradient, double swelling, d
 double logarithm_slope(double swelling, VolumeMeasure measure);
 
 /// What Code_Aster 17.3 adds to the derivative of the stress by Green and Lagrange's strain where a step begins, with
-/// the pressure p alone as an unknown and logarithmic strains: 2 p dev d : dev d, d being the rate of deformation. It is
-/// no part of the tangent, but with it iterations that a loose criterion ends end where they do there.
+/// the pressure p alone as an unknown and logarithmic strains: 2 p dev d : dev d, d being the rate of deformation. It
+/// is no part of the tangent, but with it iterations that a loose criterion ends end where they do there.
 Matrix6d beginning_stiffness(const Eigen::Matrix3d& gradient, double pressure);
 
 /// The same for two fields: the swelling follows from the pressure, as the law's mean stress does from it alone, with
