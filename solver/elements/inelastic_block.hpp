@@ -66,8 +66,14 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     assemble(u, state, column_starts, values, law_.is_large() ? &PointLaw::begin_as_it_was : &PointLaw::begin);
   }
   void add_starting_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
-    add_law_forces(u, state, forces, law_.is_large() ? &PointLaw::begin_as_it_was : &PointLaw::begin);
-    if (law_.is_large()) add_change_of_variables(u, state, forces);
+    if (!law_.is_large()) {
+      add_law_forces(u, state, forces, &PointLaw::begin);
+      return;
+    }
+    add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
+      return law_.stress_of_results(gradient, respond(element, g, x, gradient, state, &PointLaw::begin_as_it_was));
+    });
+    add_change_of_variables(u, state, forces);
   }
   void add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
     add_forces(u, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {

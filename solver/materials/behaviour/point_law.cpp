@@ -409,6 +409,11 @@ Vector6d PointLaw::held_up(const PlasticModuli& moduli, const Vector6d& inelasti
   return (in_plane_ ? elastic_stress_in_plane : elastic_stress)(moduli, inelastic);
 }
 
+Vector6d PointLaw::stress_of_results(const Eigen::Matrix3d& gradient, const PointResponse& response) const {
+  const bool thins = in_plane_ && behaviour_.kinematics == Kinematics::logarithmic;
+  return thins ? second_stress_of(gradient, response.reported) : response.stress;
+}
+
 double PointLaw::flow_between(const std::array<double, most_variables>& before,
                               const std::array<double, most_variables>& after) const {
   return own_count() == 2 ? after[0] - before[0] : 0.0;

@@ -87,6 +87,9 @@ class PointLaw {
   /// What they have changed of the stress (as PointResponse::stress, on the initial geometry); zero where
   /// begin_as_it_was() is respond().
   Vector6d change_of_variables(const PointInput& input) const;
+  /// The stress (as PointResponse::stress) that FORC_NODA has of a response, and from which Code_Aster 17.3 begins a
+  /// step: in plane stress with logarithmic strains that of the results on the initial thickness, else the response's.
+  Vector6d stress_of_results(const Eigen::Matrix3d& gradient, const PointResponse& response) const;
   /// The stress (as PointResponse::stress) with which the elastic material would hold up the strain of the command
   /// variables.
   Vector6d stress_of_variables(const PointInput& input) const { return held_up(input.constants, input.inelastic); }
