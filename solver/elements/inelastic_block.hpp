@@ -363,9 +363,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
                 double* values, Respond how) const {
     for_each_in_batches<Stiffness>(
         this->map_.element_count(), may_be_concurrent(state),
-        [&](int element, Stiffness& k) {
-          tangent(element, Base::relative_displacements(u, this->dofs_of(element)), state, how, k);
-        },
+        [&](int element, Stiffness& k) { tangent(element, u, state, how, k); },
         [&](int element, const Stiffness& k) { this->map_.add(element, k.data(), column_starts, values); });
   }
 
@@ -374,43 +372,46 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
            std::ranges::all_of(plastic_materials_, [](const PlasticMaterial& material) { return material.constant; });
   }
 
-  /// The skew-symmetric half of the tangent, by its lower triangle.
-  void skew_tangent(int element, const Eigen::VectorXd& u, const VariableState& state, Stiffness& k) const {
-    const Displacements displacements = Base::relative_displacements(u, this->dofs_of(element));
-    const Coordinates x = this->coordinates(element);
+  void tangent(int element, const Eigen::VectorXd& u, const VariableState& state, Respond how, Stiffness& k) const {
     k.setZero();
-    std::array<StrainRow, Nodes> rows;
-    for (int g = 0; g < this->point_count(); ++g) {
-      const Point point = Base::locate(x, this->samples_[g]);
-      const Eigen::Matrix3d gradient = Base::gradient_of_displacement(displacements, this->samples_[g], point);
-      const PointResponse response = respond(element, g, x, gradient, state, &PointLaw::respond);
-      const typename Base::Law law =
-          0.5 * (response.tangent - response.tangent.transpose()).template topLeftCorner<strains, strains>();
-      for (int a = 0; a < Nodes; ++a) rows[a] = row(gradient, g, point, a);
-      Base::add_material(law, point.weight, rows, k);
-    }
-    k.template triangularView<Eigen::StrictlyUpper>() = -k.transpose();
-  }
-
-  void tangent(int element, const Displacements& u, const VariableState& state, Respond how, Stiffness& k) const {
-    const Coordinates x = this->coordinates(element);
-    k.setZero();
-    std::array<StrainRow, Nodes> rows;
-    for (int g = 0; g < this->point_count(); ++g) {
-      const Point point = Base::locate(x, this->samples_[g]);
-      const Eigen::Matrix3d gradient = Base::gradient_of_displacement(u, this->samples_[g], point);
-      const PointResponse response = respond(element, g, x, gradient, state, how);
-      const typename Base::Law law =
-          0.5 * (response.tangent + response.tangent.transpose()).template topLeftCorner<strains, strains>();
-      for (int a = 0; a < Nodes; ++a) rows[a] = row(gradient, g, point, a);
-      Base::add_material(law, point.weight, rows, k);
-      const typename Base::Strain stress = response.stress.template head<strains>();
+    each_response(element, u, state, how, [&](int g, const Point& point, const Rows& rows, const PointResponse& at) {
+      Base::add_material(in_block(0.5 * (at.tangent + at.tangent.transpose())), point.weight, rows, k);
+      const typename Base::Strain stress = at.stress.template head<strains>();
       if (law_.has_geometric_part()) Base::add_geometric(point, stress, k);
       if (law_.has_hoop_part()) Base::add_hoops(this->samples_[g], point, stress, k);
-    }
+    });
     k.template triangularView<Eigen::StrictlyUpper>() = k.transpose();
     make_translation_exact<Nodes, Dim>(k, Base::invariant_directions());
   }
+
+  /// The skew-symmetric half.
+  void skew_tangent(int element, const Eigen::VectorXd& u, const VariableState& state, Stiffness& k) const {
+    k.setZero();
+    each_response(element, u, state, &PointLaw::respond,
+                  [&](int, const Point& point, const Rows& rows, const PointResponse& at) {
+                    Base::add_material(in_block(0.5 * (at.tangent - at.tangent.transpose())), point.weight, rows, k);
+                  });
+    k.template triangularView<Eigen::StrictlyUpper>() = -k.transpose();
+  }
+
+  using Rows = std::array<StrainRow, Nodes>;
+
+  /// Calls visitor(g, point, strain rows of the nodes, response) for each point of an element.
+  template <class Visitor>
+  void each_response(int element, const Eigen::VectorXd& u, const VariableState& state, Respond how,
+                     Visitor&& visitor) const {
+    const Displacements displacements = Base::relative_displacements(u, this->dofs_of(element));
+    const Coordinates x = this->coordinates(element);
+    Rows rows;
+    for (int g = 0; g < this->point_count(); ++g) {
+      const Point point = Base::locate(x, this->samples_[g]);
+      const Eigen::Matrix3d gradient = Base::gradient_of_displacement(displacements, this->samples_[g], point);
+      for (int a = 0; a < Nodes; ++a) rows[a] = row(gradient, g, point, a);
+      visitor(g, point, rows, respond(element, g, x, gradient, state, how));
+    }
+  }
+
+  static typename Base::Law in_block(const Matrix6d& law) { return law.template topLeftCorner<strains, strains>(); }
 
   PointLaw law_;
   std::vector<PointPast> past_;  ///< cells x points
