@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "commands/cli/options.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -21,7 +23,7 @@ struct Subcommands {
   RunOptions run;
   CheckOptions check;
   GraphOptions graph;
-  std::string explained;
+  std::vector<std::string> explained;
   bool verbose = false;
   bool quiet = false;
 };
@@ -69,8 +71,9 @@ void declare(CLI::App& app, Subcommands& given, int& status) {
   graph_command->callback([&] { status = graph(given.graph); });
 
   auto* explain_command = app.add_subcommand("explain", "Say what a command or a keyword is");
-  explain_command->add_option("PATH", given.explained, "COMMAND or COMMAND/KEYWORD/...; nothing: the list of commands");
-  explain_command->callback([&] { status = explain(given.explained); });
+  explain_command->add_option("PATH", given.explained,
+                              "COMMAND, COMMAND/KEYWORD/... or COMMAND KEYWORD ...; nothing: the list of commands");
+  explain_command->callback([&] { status = explain(fmt::format("{}", fmt::join(given.explained, "/"))); });
 }
 
 void tell(const comma::interpreter::Diagnostic& problem) {
