@@ -325,6 +325,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
 
   /// What the command variables have changed since the last step, on the initial geometry.
   void add_change_of_variables(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const {
+    if (state.empty()) return;
     const Eigen::VectorXd at_rest = Eigen::VectorXd::Zero(u.size());
     add_forces(at_rest, state, forces, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d&) {
       const Constants constants(*this, element, g, x, state);

@@ -186,7 +186,9 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       const Deformed at(*this, element, g, x, u, state);
       for (int a = 0; a < Nodes; ++a) rows[a] = at.row(a);
       Base::add_material(*at.behaviour.law, at.point.weight, rows, k);
-      Base::add_geometric(at.point, Deformed(*this, element, g, x, u, of_stresses).stress, k);
+      const bool is_same_state = &of_stresses == &state;
+      Base::add_geometric(at.point, is_same_state ? at.stress : Deformed(*this, element, g, x, u, of_stresses).stress,
+                          k);
     }
     k.template triangularView<Eigen::StrictlyUpper>() = k.transpose();
     make_translation_exact<Nodes, Dim>(k, Base::invariant_directions());

@@ -196,6 +196,11 @@ class MumpsFactors final : public UnsymmetricSolver::Factors {
   std::vector<int> starts_, rows_;  ///< the pattern analysed
 };
 
+std::unique_ptr<UnsymmetricSolver::Factors> factors_for(Eigen::Index rows) {
+  if (rows > small_unsymmetric_system) return std::make_unique<MumpsFactors>();
+  return std::make_unique<EigenFactors>();
+}
+
 }  // namespace
 
 UnsymmetricSolver::UnsymmetricSolver(const LinearOptions& options) : options_(options) {}
@@ -226,11 +231,7 @@ FactorReport UnsymmetricSolver::factorise(const SymmetricMatrix& symmetric, cons
 }
 
 void UnsymmetricSolver::factorise_scaled(const GeneralMatrix& working) {
-  const bool is_small = working.rows() <= small_unsymmetric_system;
-  if (is_small)
-    factors_ = std::make_unique<EigenFactors>();
-  else if (!factors_)
-    factors_ = std::make_unique<MumpsFactors>();
+  if (!factors_) factors_ = factors_for(working.rows());
   const Eigen::VectorXd ones = Eigen::VectorXd::Ones(working.rows());
   Eigen::VectorXd references = maxima_of(working, ones, ones).columns;
   references = (references.array() > 0.0).select(references, ones);
