@@ -5,8 +5,8 @@
 
 #include <string>
 
-#include "interpreter/call.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "interpreter/graph/call.hpp"
 
 namespace comma::commands {
 

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "interpreter/catalogue.hpp"
+#include "interpreter/catalogue/catalogue.hpp"
 
 namespace comma::commands {
 

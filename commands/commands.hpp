@@ -5,7 +5,7 @@
 
 #include "commands/concepts.hpp"
 #include "commands/context.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 
 namespace comma::commands {
 

@@ -2,7 +2,7 @@
 
 #include "commands/tables/extracted_table.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "interpreter/value.hpp"
+#include "interpreter/values/value.hpp"
 
 namespace comma::commands {
 

@@ -12,7 +12,7 @@
 #include "commands/functions/functions.hpp"
 #include "commands/loads/multiplier_sum.hpp"
 #include "commands/tables/table.hpp"
-#include "interpreter/concept.hpp"
+#include "interpreter/graph/concept.hpp"
 #include "solver/contact/definition.hpp"
 #include "solver/elements/section.hpp"
 #include "solver/fields/field.hpp"

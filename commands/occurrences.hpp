@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "interpreter/call.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/error.hpp"
 
 namespace comma::commands {

@@ -6,7 +6,7 @@
 
 #include <Eigen/Core>
 
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/mesh/mesh.hpp"
 
 namespace comma::commands {

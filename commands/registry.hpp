@@ -2,7 +2,7 @@
 #pragma once
 
 #include "commands/commands.hpp"
-#include "interpreter/executor.hpp"
+#include "interpreter/graph/executor.hpp"
 
 namespace comma::commands {
 

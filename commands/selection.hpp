@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/mesh/mesh.hpp"
 
 namespace comma::commands {

@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 
 namespace comma::commands {
 

@@ -6,8 +6,8 @@
 #include <variant>
 #include <vector>
 
-#include "interpreter/call.hpp"
-#include "interpreter/host.hpp"
+#include "interpreter/evaluation/host.hpp"
+#include "interpreter/graph/call.hpp"
 
 namespace comma::commands {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "interpreter/diagnostic.hpp"
-#include "interpreter/lexer.hpp"
+#include "interpreter/syntax/lexer.hpp"
 
 namespace comma::interpreter {
 

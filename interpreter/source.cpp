@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "interpreter/diagnostic.hpp"
-#include "interpreter/utf8.hpp"
+#include "interpreter/syntax/utf8.hpp"
 
 namespace comma::interpreter {
 

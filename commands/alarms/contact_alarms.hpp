@@ -1,8 +1,8 @@
 // What DEFI_CONTACT tells about a definition that is allowed and likely not what is meant.
 #pragma once
 
-#include "interpreter/call.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/contact/definition.hpp"
 #include "solver/model/model.hpp"
 

@@ -3,9 +3,9 @@
 // looked at, also one that `comma check` will not run.
 #pragma once
 
-#include "interpreter/catalogue.hpp"
-#include "interpreter/command_graph.hpp"
+#include "interpreter/catalogue/catalogue.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "interpreter/graph/command_graph.hpp"
 
 namespace comma::commands {
 

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "commands/context.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 
 namespace comma::commands {

@@ -6,7 +6,7 @@
 
 #include "commands/concepts.hpp"
 #include "commands/context.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 
 namespace comma::commands {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "commands/context.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 
 namespace comma::commands {

@@ -6,7 +6,7 @@
 
 #include "commands/analysis/result_reading.hpp"
 #include "commands/concepts.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 
 namespace comma::commands {
 

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/model/behaviour.hpp"
 #include "solver/model/model.hpp"
 

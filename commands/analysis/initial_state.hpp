@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "commands/concepts.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 
 namespace comma::commands {
 

@@ -7,7 +7,7 @@
 
 #include "commands/analysis/result_reading.hpp"
 #include "commands/concepts.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/fields/field_computation.hpp"
 
 namespace comma::commands {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "commands/concepts.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/mesh/mesh.hpp"
 #include "solver/nonlinear/path_control.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "commands/concepts.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/fields/field_computation.hpp"
 #include "solver/linear/linear_solver.hpp"
 #include "solver/nonlinear/static_analysis.hpp"

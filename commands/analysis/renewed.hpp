@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/concept.hpp"
+#include "interpreter/graph/concept.hpp"
 
 namespace comma::commands {
 

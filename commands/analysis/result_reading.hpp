@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "commands/concepts.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 
 namespace comma::commands {
 

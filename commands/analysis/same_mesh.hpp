@@ -1,7 +1,7 @@
 // Whether what a command is given lies on one mesh.
 #pragma once
 
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/mesh/mesh.hpp"
 
 namespace comma::commands {

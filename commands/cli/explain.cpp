@@ -3,7 +3,7 @@
 
 #include "commands/catalogue.hpp"
 #include "commands/cli/options.hpp"
-#include "interpreter/explain.hpp"
+#include "interpreter/catalogue/explain.hpp"
 
 namespace comma::commands {
 

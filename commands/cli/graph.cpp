@@ -7,7 +7,7 @@
 
 #include "commands/cli/options.hpp"
 #include "commands/cli/study_run.hpp"
-#include "interpreter/command_graph_export.hpp"
+#include "interpreter/graph/command_graph_export.hpp"
 
 namespace comma::commands {
 

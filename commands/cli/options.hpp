@@ -4,7 +4,7 @@
 #include <string>
 
 #include "commands/context.hpp"
-#include "interpreter/meter.hpp"
+#include "interpreter/evaluation/meter.hpp"
 
 namespace comma::commands {
 

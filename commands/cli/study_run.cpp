@@ -11,9 +11,9 @@
 #include "commands/catalogue.hpp"
 #include "commands/cli/options.hpp"
 #include "commands/registry.hpp"
-#include "interpreter/evaluator.hpp"
-#include "interpreter/exception.hpp"
-#include "interpreter/parser.hpp"
+#include "interpreter/evaluation/evaluator.hpp"
+#include "interpreter/syntax/parser.hpp"
+#include "interpreter/values/exception.hpp"
 
 namespace comma::commands {
 

@@ -10,10 +10,10 @@
 #include "commands/cli/report.hpp"
 #include "commands/context.hpp"
 #include "commands/unit_numbers.hpp"
-#include "interpreter/ast.hpp"
-#include "interpreter/evaluator.hpp"
-#include "interpreter/meter.hpp"
-#include "interpreter/session.hpp"
+#include "interpreter/evaluation/evaluator.hpp"
+#include "interpreter/evaluation/meter.hpp"
+#include "interpreter/graph/session.hpp"
+#include "interpreter/syntax/ast.hpp"
 
 namespace comma::commands {
 

@@ -2,8 +2,8 @@
 #pragma once
 
 #include "commands/tables/table.hpp"
-#include "interpreter/call.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "interpreter/graph/call.hpp"
 
 namespace comma::commands {
 

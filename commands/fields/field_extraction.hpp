@@ -6,7 +6,7 @@
 
 #include "commands/concepts.hpp"
 #include "commands/fields/field_types.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 
 namespace comma::commands {
 

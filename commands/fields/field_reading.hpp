@@ -10,8 +10,8 @@
 #include "commands/analysis/result_reading.hpp"
 #include "commands/concepts.hpp"
 #include "commands/tables/table.hpp"
-#include "interpreter/call.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "interpreter/graph/call.hpp"
 
 namespace comma::commands {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "commands/concepts.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/fields/field_algebra.hpp"
 
 namespace comma::commands {

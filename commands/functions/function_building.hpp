@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/functions/function.hpp"
 
 namespace comma::commands {

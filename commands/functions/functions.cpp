@@ -10,8 +10,8 @@
 #include "commands/diagnosed.hpp"
 #include "commands/functions/function_building.hpp"
 #include "commands/nearest.hpp"
-#include "interpreter/array.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "interpreter/values/array.hpp"
 #include "solver/error.hpp"
 #include "solver/functions/deformed_place.hpp"
 

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/call.hpp"
-#include "interpreter/concept.hpp"
-#include "interpreter/formula.hpp"
+#include "interpreter/formulas/formula.hpp"
+#include "interpreter/graph/call.hpp"
+#include "interpreter/graph/concept.hpp"
 #include "solver/functions/function.hpp"
 
 namespace comma::commands {

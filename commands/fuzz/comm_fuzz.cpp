@@ -9,10 +9,10 @@
 #include <string>
 
 #include "commands/catalogue.hpp"
-#include "interpreter/command_graph_export.hpp"
-#include "interpreter/evaluator.hpp"
-#include "interpreter/parser.hpp"
-#include "interpreter/session.hpp"
+#include "interpreter/evaluation/evaluator.hpp"
+#include "interpreter/graph/command_graph_export.hpp"
+#include "interpreter/graph/session.hpp"
+#include "interpreter/syntax/parser.hpp"
 
 using namespace comma::interpreter;
 

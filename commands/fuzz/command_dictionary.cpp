@@ -6,7 +6,7 @@
 #include <string>
 
 #include "commands/catalogue.hpp"
-#include "interpreter/repr.hpp"
+#include "interpreter/values/repr.hpp"
 
 using namespace comma::interpreter;
 

@@ -12,8 +12,8 @@
 
 #include <Eigen/Dense>
 
-#include "interpreter/call.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/loads/load.hpp"
 #include "solver/model/model.hpp"
 

@@ -7,10 +7,10 @@
 #include "commands/diagnosed.hpp"
 #include "commands/methods/method_arguments.hpp"
 #include "commands/ordered_set.hpp"
-#include "interpreter/array.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "interpreter/exception.hpp"
-#include "interpreter/host_object.hpp"
+#include "interpreter/values/array.hpp"
+#include "interpreter/values/exception.hpp"
+#include "interpreter/values/host_object.hpp"
 #include "solver/fields/field_algebra.hpp"
 #include "solver/fields/field_rows.hpp"
 

@@ -6,8 +6,8 @@
 #include "commands/diagnosed.hpp"
 #include "commands/methods/method_arguments.hpp"
 #include "commands/ordered_set.hpp"
-#include "interpreter/array.hpp"
-#include "interpreter/host_object.hpp"
+#include "interpreter/values/array.hpp"
+#include "interpreter/values/host_object.hpp"
 
 namespace comma::commands {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "interpreter/value.hpp"
+#include "interpreter/values/value.hpp"
 
 namespace comma::commands {
 

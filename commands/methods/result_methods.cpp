@@ -10,7 +10,7 @@
 #include "commands/methods/method_arguments.hpp"
 #include "commands/tables/result_tables.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "interpreter/dict.hpp"
+#include "interpreter/values/dict.hpp"
 
 namespace comma::commands {
 

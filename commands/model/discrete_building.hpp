@@ -3,7 +3,7 @@
 
 #include <unordered_map>
 
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/elements/section.hpp"
 
 namespace comma::commands {

@@ -8,8 +8,8 @@
 
 #include "commands/fields/field_reading.hpp"
 #include "commands/tables/table.hpp"
-#include "interpreter/call.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/mesh/mesh.hpp"
 #include "solver/model/model.hpp"
 

@@ -1,7 +1,7 @@
 // Sections of plates from AFFE_CARA_ELEM.
 #pragma once
 
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/fields/input_fields.hpp"
 
 namespace comma::commands {

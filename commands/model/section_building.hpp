@@ -1,7 +1,7 @@
 // Cross-sections of bars and beams from the names and values of AFFE_CARA_ELEM.
 #pragma once
 
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/elements/section.hpp"
 
 namespace comma::commands {

@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "commands/methods/method_arguments.hpp"
-#include "interpreter/host_object.hpp"
-#include "interpreter/operations.hpp"
-#include "interpreter/pattern.hpp"
-#include "interpreter/repr.hpp"
+#include "interpreter/library/pattern.hpp"
+#include "interpreter/values/host_object.hpp"
+#include "interpreter/values/operations.hpp"
+#include "interpreter/values/repr.hpp"
 
 namespace comma::commands {
 

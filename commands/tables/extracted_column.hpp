@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "interpreter/dict.hpp"
-#include "interpreter/value.hpp"
+#include "interpreter/values/dict.hpp"
+#include "interpreter/values/value.hpp"
 
 namespace comma::commands {
 

@@ -9,11 +9,11 @@
 
 #include "commands/methods/method_arguments.hpp"
 #include "commands/tables/extracted_column.hpp"
-#include "interpreter/array.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "interpreter/evaluator.hpp"
-#include "interpreter/host_object.hpp"
-#include "interpreter/operations.hpp"
+#include "interpreter/evaluation/evaluator.hpp"
+#include "interpreter/values/array.hpp"
+#include "interpreter/values/host_object.hpp"
+#include "interpreter/values/operations.hpp"
 
 namespace comma::commands {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "commands/tables/table.hpp"
-#include "interpreter/value.hpp"
+#include "interpreter/values/value.hpp"
 
 namespace comma::commands {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "commands/tables/table.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 #include "solver/fields/rotation.hpp"
 
 namespace comma::commands {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "commands/tables/table.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 
 namespace comma::commands {
 

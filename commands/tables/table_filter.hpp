@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "commands/tables/table.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 
 namespace comma::commands {
 

@@ -8,7 +8,7 @@
 
 #include "commands/context.hpp"
 #include "commands/tables/table.hpp"
-#include "interpreter/call.hpp"
+#include "interpreter/graph/call.hpp"
 
 namespace comma::commands {
 

@@ -9,7 +9,7 @@
 
 #include "commands/catalogue.hpp"
 #include "commands/cli/study_run.hpp"
-#include "interpreter/explain.hpp"
+#include "interpreter/catalogue/explain.hpp"
 
 namespace fs = std::filesystem;
 using namespace comma::commands;

@@ -9,10 +9,10 @@
 #include <optional>
 #include <set>
 
-#include "interpreter/ast.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "interpreter/parser.hpp"
 #include "interpreter/source.hpp"
+#include "interpreter/syntax/ast.hpp"
+#include "interpreter/syntax/parser.hpp"
 
 namespace comma::commands::tests {
 

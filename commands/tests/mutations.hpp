@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/catalogue.hpp"
+#include "interpreter/catalogue/catalogue.hpp"
 
 namespace comma::commands::tests {
 

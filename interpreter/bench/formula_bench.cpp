@@ -6,7 +6,7 @@
 #include <chrono>
 #include <string>
 
-#include "interpreter/formula.hpp"
+#include "interpreter/formulas/formula.hpp"
 
 namespace {
 

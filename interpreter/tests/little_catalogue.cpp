@@ -1,6 +1,6 @@
 #include "interpreter/tests/little_catalogue.hpp"
 
-#include "interpreter/dict.hpp"
+#include "interpreter/values/dict.hpp"
 
 namespace comma::interpreter::tests {
 namespace {

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "interpreter/catalogue.hpp"
+#include "interpreter/catalogue/catalogue.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "interpreter/host.hpp"
+#include "interpreter/evaluation/host.hpp"
 #include "interpreter/tools/catalogue_yaml.hpp"
 
 namespace comma::interpreter::tests {

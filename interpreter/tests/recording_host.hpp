@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/evaluator.hpp"
-#include "interpreter/parser.hpp"
+#include "interpreter/evaluation/evaluator.hpp"
+#include "interpreter/syntax/parser.hpp"
 
 namespace comma::interpreter::testing {
 

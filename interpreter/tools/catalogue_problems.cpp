@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
-#include "interpreter/check_rules.hpp"
-#include "interpreter/check_value.hpp"
+#include "interpreter/catalogue/check_rules.hpp"
+#include "interpreter/catalogue/check_value.hpp"
 #include "interpreter/tools/catalogue_yaml.hpp"
 
 namespace comma::interpreter::tools {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "interpreter/catalogue.hpp"
+#include "interpreter/catalogue/catalogue.hpp"
 
 namespace comma::interpreter::tools {
 

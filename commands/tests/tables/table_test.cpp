@@ -10,7 +10,7 @@
 #include "commands/tables/reductions.hpp"
 #include "commands/tables/row_keys.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "interpreter/value.hpp"
+#include "interpreter/values/value.hpp"
 
 using namespace comma::commands;
 using comma::interpreter::DiagnosticError;
