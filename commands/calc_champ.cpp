@@ -139,7 +139,7 @@ void warn_of_elastic_thickness(const Call& call, const solver::StaticProblem& pr
 // EPSP_... and ETOT_... are those of small strains whatever DEFORMATION says.
 void warn_of_small_measures(const Call& call, const solver::StaticProblem& problem, Context& context) {
   const auto is_large = [](const solver::CellBehaviour& behaviour) {
-    return behaviour.kinematics != solver::Kinematics::small && behaviour.kinematics != solver::Kinematics::updated;
+    return !solver::has_small_strains(behaviour.kinematics);
   };
   if (!problem.behaviours || std::ranges::none_of(*problem.behaviours, is_large)) return;
   for (const std::string& name : wanted_fields(call))

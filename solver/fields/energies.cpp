@@ -235,8 +235,8 @@ ElementField hardening_energy_density(const FieldInput& input, const ElementFiel
   ElementField energies{"ENER_R", Support::gauss_point, {"TOTALE"}, {0}, {}};
   for (int cell = 0; cell < input.model.mesh->cell_count(); ++cell) {
     const CellBehaviour& behaviour = behaviours[static_cast<std::size_t>(cell)];
-    const bool adds_strains = behaviour.kinematics == Kinematics::small || behaviour.kinematics == Kinematics::updated;
-    const bool hardens = points.covers(cell) && is_isotropic(behaviour.relation) && adds_strains;
+    const bool hardens =
+        points.covers(cell) && is_isotropic(behaviour.relation) && has_small_strains(behaviour.kinematics);
     const int count = hardens ? variables.points(cell) : 0;
     energies.starts.push_back(energies.starts.back() + count);
     if (count == 0) continue;

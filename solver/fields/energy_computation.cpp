@@ -18,7 +18,7 @@ namespace comma::solver {
 
 void FieldComputation::require_added_strains(std::string_view name) const {
   if (problem_.behaviours && std::ranges::any_of(*problem_.behaviours, [](const CellBehaviour& each) {
-        return each.kinematics != Kinematics::small && each.kinematics != Kinematics::updated;
+        return !has_small_strains(each.kinematics);
       }))
     throw Error("unsupported", fmt::format("{} is known for small strains and PETIT_REAC only", name));
 }

@@ -57,6 +57,11 @@ constexpr bool is_isotropic(Relation relation) {
          relation == Relation::isotropic_power || relation == Relation::isotropic_nonlinear;
 }
 
+/// Small strains, which are sums of those of the steps.
+constexpr bool has_small_strains(Kinematics kinematics) {
+  return kinematics == Kinematics::small || kinematics == Kinematics::updated;
+}
+
 /// Whether stresses depend on more than the displacements of the moment.
 constexpr bool has_memory(const CellBehaviour& behaviour) {
   return behaviour.relation != Relation::elastic ||

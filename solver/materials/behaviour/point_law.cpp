@@ -131,8 +131,7 @@ bool PointLaw::keeps_plastic_strain() const {
 // In small strains alone: Code_Aster has VMIS_ISOT_NL in plane stress by De Borst's method, which keeps it, and refuses
 // it with GDEF_LOG.
 bool PointLaw::keeps_strain_across() const {
-  return behaviour_.relation == Relation::isotropic_nonlinear && in_plane_ &&
-         (behaviour_.kinematics == Kinematics::small || behaviour_.kinematics == Kinematics::updated);
+  return behaviour_.relation == Relation::isotropic_nonlinear && in_plane_ && has_small_strains(behaviour_.kinematics);
 }
 
 int PointLaw::variable_count() const { return own_count() + (keeps_tensor(behaviour_.kinematics) ? tensor_size : 0); }
