@@ -30,7 +30,7 @@ using interpreter::DiagnosticError;
 solver::StaticProblem problem_of(const Call& call, const InitialStateChoice& initial) {
   solver::StaticProblem problem = static_problem(call);
   problem.initial = initial.state;
-  problem.behaviours = behaviours_of(call, *problem.model, call.has("ETAT_INIT"));
+  problem.behaviours = behaviours_of(call, *problem.model, problem.initial.get());
   if (!call.has("CONTACT")) return problem;
   const auto& contact_concept = call.data<ContactConcept>("CONTACT");
   require_mesh(call, "CONTACT", contact_concept.model->mesh.get(), *problem.model->mesh);

@@ -49,31 +49,34 @@ solver::CellBehaviour behaviour_of(const Keywords& keywords) {
 }
 
 // In continua GROT_GDEP is Green and Lagrange's measure (U4.51.11), the older word for it.
-solver::CellBehaviour behaviour_on(solver::CellBehaviour behaviour, const solver::Model& model, int cell) {
-  const solver::Formulation formulation = model.formulations[static_cast<std::size_t>(cell)];
-  if (behaviour.kinematics != solver::Kinematics::large_rotations || solver::continuum_dimension(formulation) == 0)
-    return behaviour;
-  behaviour.kinematics = solver::Kinematics::green_lagrange;
+solver::CellBehaviour behaviour_on(solver::CellBehaviour behaviour, const solver::Model& model, int cell,
+                                   const solver::InitialState* initial) {
+  const bool is_solid = solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) > 0;
+  if (is_solid && behaviour.kinematics == solver::Kinematics::large_rotations)
+    behaviour.kinematics = solver::Kinematics::green_lagrange;
+  const bool has_whole_strain =
+      is_solid && behaviour.relation == solver::Relation::elastic && behaviour.kinematics == solver::Kinematics::small;
+  behaviour.from_initial_state = initial != nullptr && (initial->stresses || !has_whole_strain);
   return behaviour;
 }
 
 }  // namespace
 
 std::shared_ptr<const solver::BehaviourOfCells> behaviours_of(const Keywords& call, const solver::Model& model,
-                                                              bool from_initial_state) {
+                                                              const solver::InitialState* initial) {
   const solver::Mesh& mesh = *model.mesh;
-  solver::CellBehaviour usual;
-  usual.from_initial_state = from_initial_state;
-  auto result = std::make_shared<solver::BehaviourOfCells>(static_cast<std::size_t>(mesh.cell_count()), usual);
+  auto result = std::make_shared<solver::BehaviourOfCells>(static_cast<std::size_t>(mesh.cell_count()));
+  for (int cell = 0; cell < mesh.cell_count(); ++cell)
+    (*result)[static_cast<std::size_t>(cell)] = behaviour_on({}, model, cell, initial);
   for (const Keywords& keywords : call.factors("COMPORTEMENT")) {
-    solver::CellBehaviour behaviour = behaviour_of(keywords);
-    behaviour.from_initial_state = usual.from_initial_state;
+    const solver::CellBehaviour behaviour = behaviour_of(keywords);
     std::vector<int> cells = selected_cells(keywords, mesh);
     if (!keywords.has("GROUP_MA") && !keywords.has("MAILLE")) {
       cells.resize(result->size());
       std::iota(cells.begin(), cells.end(), 0);
     }
-    for (const int cell : cells) (*result)[static_cast<std::size_t>(cell)] = behaviour_on(behaviour, model, cell);
+    for (const int cell : cells)
+      (*result)[static_cast<std::size_t>(cell)] = behaviour_on(behaviour, model, cell, initial);
   }
   if (std::ranges::all_of(*result, [](const auto& each) { return each == solver::CellBehaviour{}; })) return nullptr;
   return result;

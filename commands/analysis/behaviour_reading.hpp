@@ -6,12 +6,16 @@
 #include "interpreter/graph/call.hpp"
 #include "solver/model/behaviour.hpp"
 #include "solver/model/model.hpp"
+#include "solver/nonlinear/static_analysis.hpp"
 
 namespace comma::commands {
 
-/// One behaviour a cell by the occurrences of COMPORTEMENT, the later winning; null where all are linear. Throws
-/// DiagnosticError `unsupported` for a relation that does not go with DEFORMATION='GROT_GDEP' of continua.
+/// One behaviour a cell by the occurrences of COMPORTEMENT, the later winning; null where all are linear. From an
+/// initial state elasticity adds up, but for solids in small strains to which it gives no stresses: theirs are those of
+/// the whole displacements (Code_Aster 17.3). Throws DiagnosticError `unsupported` for a relation that does not go with
+/// DEFORMATION='GROT_GDEP' of continua.
 std::shared_ptr<const solver::BehaviourOfCells> behaviours_of(const interpreter::Keywords& keywords,
-                                                              const solver::Model& model, bool from_initial_state);
+                                                              const solver::Model& model,
+                                                              const solver::InitialState* initial);
 
 }  // namespace comma::commands

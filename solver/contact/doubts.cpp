@@ -78,7 +78,7 @@ void ContactDoubts::note(const ContactDoubt& doubt) {
       all_, [&](const ContactDoubt& each) { return each.kind == doubt.kind && each.zone == doubt.zone; });
   if (found == all_.end()) {
     all_.push_back(doubt);
-  } else if (doubt.length > found->length) {
+  } else if (std::pair(doubt.length, doubt.share) > std::pair(found->length, found->share)) {
     *found = doubt;
   }
 }

@@ -108,6 +108,9 @@ class Assembler {
   /// plates: what they have besides stays, in internal_forces() and stresses(). Plates must have such stresses through
   /// their thickness as forces make. What holds rotations about the normal of plates is in no stress: it is that of u.
   void resume(const Eigen::VectorXd& u, const ElementField* stresses, const ElementField* variables);
+  /// After resume() without stresses: discrete elements and beams whose forces follow from displacements begin with
+  /// none at u, and go on by what displacements add (Code_Aster 17.3; continua and plates keep the stresses of u).
+  void begin_without_forces(const Eigen::VectorXd& u);
   /// VARI_ELGA: internal variables V1, V2 ... at the Gauss points (U4.51.11); cells with fewer have none in the other
   /// components.
   ElementField internal_variables(const Eigen::VectorXd& u) const;
@@ -190,6 +193,7 @@ class Assembler {
   std::unique_ptr<const ImposedStrains> imposed_;  ///< null: none
   /// That elements without a memory have beside those of their displacements; forces of plates.
   std::vector<std::pair<const ElementBlock*, std::vector<double>>> initial_stresses_;
+  void sum_initial_forces(const Eigen::VectorXd& u);
   Eigen::VectorXd initial_forces_;  ///< of these; empty: none
   int version_ = 0;
 };

@@ -81,6 +81,23 @@ void Assembler::resume(const Eigen::VectorXd& u, const ElementField* stresses, c
     block->resume(u, state_, read_stresses(*block, stresses, *model_.mesh),
                   read_block(*block, variable_names(block->variable_count()), variables, *model_.mesh));
   }
+  sum_initial_forces(u);
+}
+
+void Assembler::begin_without_forces(const Eigen::VectorXd& u) {
+  for (const auto& block : blocks_->list) {
+    const Formulation formulation = model_.formulations[static_cast<std::size_t>(block->cells().front())];
+    if (block->has_memory() || continuum_dimension(formulation) > 0 || is_of_plates(*block) ||
+        !block->takes_initial_stresses())
+      continue;
+    std::vector<double> values = stresses_of(*block, u, state_, imposed_.get());
+    for (double& value : values) value = -value;
+    initial_stresses_.emplace_back(block.get(), std::move(values));
+  }
+  sum_initial_forces(u);
+}
+
+void Assembler::sum_initial_forces(const Eigen::VectorXd& u) {
   if (initial_stresses_.empty()) return;
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
   for (const auto& [block, values] : initial_stresses_) block->add_forces_of_stresses(u, state_, values, sums);

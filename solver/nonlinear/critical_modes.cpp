@@ -13,53 +13,26 @@ namespace comma::solver {
 
 namespace {
 
-/// The reduced unknowns that take part.
-std::vector<int> kept_unknowns(const StabilityAnalysis& analysis, const Elimination& elimination, const DofMap& dofs) {
-  std::vector<int> kept;
+/// One at each reduced unknown that takes part, zero at those of excluded components.
+SymmetricMatrix participation(const StabilityAnalysis& analysis, const Elimination& elimination, const DofMap& dofs) {
+  std::vector<Eigen::Triplet<double>> entries;
   for (int i = 0; i < elimination.reduced_size(); ++i) {
     const Component component = dofs.component_of(elimination.kept()[static_cast<std::size_t>(i)]);
-    if (std::ranges::find(analysis.excluded, component) == analysis.excluded.end()) kept.push_back(i);
+    if (std::ranges::find(analysis.excluded, component) == analysis.excluded.end()) entries.emplace_back(i, i, 1.0);
   }
-  return kept;
-}
-
-/// The rows and columns of a lower triangle.
-template <class Matrix>
-Matrix part_of(const Matrix& whole, const std::vector<int>& kept) {
-  std::vector<int> place(static_cast<std::size_t>(whole.rows()), -1);
-  for (std::size_t k = 0; k < kept.size(); ++k) place[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int column = 0; column < whole.outerSize(); ++column)
-    for (typename Matrix::InnerIterator it(whole, column); it; ++it) {
-      const int i = place[static_cast<std::size_t>(it.row())], j = place[static_cast<std::size_t>(column)];
-      if (i >= 0 && j >= 0) entries.emplace_back(i, j, it.value());
-    }
-  Matrix part(static_cast<Eigen::Index>(kept.size()), static_cast<Eigen::Index>(kept.size()));
-  part.setFromTriplets(entries.begin(), entries.end());
-  return part;
-}
-
-SymmetricMatrix identity(Eigen::Index size) {
-  SymmetricMatrix matrix(size, size);
-  matrix.setIdentity();
+  SymmetricMatrix matrix(elimination.reduced_size(), elimination.reduced_size());
+  matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
-}
-
-NodalField shape_of(const Eigen::VectorXd& vector, const std::vector<int>& kept, const Elimination& elimination,
-                    const DofMap& dofs) {
-  Eigen::VectorXd reduced = Eigen::VectorXd::Zero(elimination.reduced_size());
-  for (std::size_t k = 0; k < kept.size(); ++k) reduced[kept[k]] = vector[static_cast<Eigen::Index>(k)];
-  return to_field(elimination.transformation() * reduced, dofs, "DEPL_R");
 }
 
 bool has_sign(double value, InstabilitySign sign) {
   return sign == InstabilitySign::either || (value > 0.0) == (sign == InstabilitySign::positive);
 }
 
-/// With the stiffness of stresses apart the load itself is critical from a factor of 1 down; without, a stiffness below
-/// zero tells.
+/// With the stiffness of stresses apart the load itself is critical from a factor of 1 down; without, an eigenvalue of
+/// the stiffness below zero tells.
 bool is_instability(const StabilityAnalysis& analysis, double value) {
-  if (!analysis.geometric) return value < 0.0;
+  if (!analysis.geometric) return value > 0.0;
   return has_sign(value, analysis.sign) && std::abs(value) <= 1.0 + analysis.precision;
 }
 
@@ -97,23 +70,22 @@ bool is_stability_due(const StabilityAnalysis& analysis, double instant, int num
 
 StabilityReport critical_modes(const StabilityAnalysis& analysis, double instant, const Eigen::VectorXd& u,
                                const Assembler& assembler, const Elimination& elimination, const DofMap& dofs) {
-  const std::vector<int> kept = kept_unknowns(analysis, elimination, dofs);
-  const SymmetricMatrix stiffness = part_of(SymmetricMatrix(elimination.reduce(assembler.stiffness(u))), kept);
+  const SymmetricMatrix stiffness = elimination.reduce(assembler.stiffness(u));
   const SymmetricMatrix other =
-      analysis.geometric
-          ? SymmetricMatrix(-part_of(SymmetricMatrix(elimination.reduce(assembler.geometric_stiffness(u))), kept))
-          : identity(stiffness.rows());
+      analysis.geometric ? SymmetricMatrix(-SymmetricMatrix(elimination.reduce(assembler.geometric_stiffness(u))))
+                         : SymmetricMatrix(-participation(analysis, elimination, dofs));
+  StabilityReport report;
+  report.instant = instant;
+  if (other.nonZeros() == 0) return report;
   SkewMatrix skew;
-  if (!assembler.is_symmetric()) skew = part_of(elimination.reduce_skew(assembler.skew_stiffness(u)), kept);
+  if (!assembler.is_symmetric()) skew = elimination.reduce_skew(assembler.skew_stiffness(u));
   const Pencil pencil{stiffness, assembler.is_symmetric() ? nullptr : &skew, other};
   const EigenPairs pairs = analysis.selection == ModeSelection::band
                                ? eigenvalues_between(pencil, analysis.first, analysis.last)
                                : smallest_eigenvalues(pencil, analysis.count);
-  StabilityReport report;
-  report.instant = instant;
   for (std::size_t k = 0; k < pairs.values.size(); ++k) {
-    report.modes.push_back(
-        {pairs.values[k], shape_of(pairs.vectors.col(static_cast<Eigen::Index>(k)), kept, elimination, dofs)});
+    const Eigen::VectorXd shape = elimination.transformation() * pairs.vectors.col(static_cast<Eigen::Index>(k));
+    report.modes.push_back({pairs.values[k], to_field(shape, dofs, "DEPL_R")});
     report.unstable = report.unstable || is_instability(analysis, pairs.values[k]);
   }
   return report;

@@ -131,6 +131,7 @@ int NewtonSolver::further_iterations(double time, const std::vector<IterationRep
   if (further <= 0) return 0;
   const IterationReport& last = history.back();
   const bool to_loads = options_.relative_residual && last.relative_residual > *options_.relative_residual;
+  if (!to_loads && !(excess > 1.0)) return 0;
   std::vector<double> residuals;
   for (const IterationReport& each : history)
     residuals.push_back(to_loads ? each.relative_residual : each.absolute_residual);

@@ -138,13 +138,15 @@ std::shared_ptr<const ContactMemory> StaticRun::contact_so_far() const {
 
 void StaticRun::resume() {
   const auto address = [](const auto& field) { return field ? &*field : nullptr; };
-  if (problem_.initial)
+  if (problem_.initial) {
     assembler_.resume(now_.state.u, address(problem_.initial->stresses),
                       of_memory(address(problem_.initial->variables)));
-  else if (!result_.steps.empty())
+    if (problem_.initial->displacement && !problem_.initial->stresses) assembler_.begin_without_forces(now_.state.u);
+  } else if (!result_.steps.empty()) {
     assembler_.resume(now_.state.u, field_of_last_step("SIEF_ELGA"), of_memory(field_of_last_step("VARI_ELGA")));
-  else
+  } else {
     assembler_.resume(now_.state.u, nullptr, nullptr);
+  }
 }
 
 const ElementField* StaticRun::of_memory(const ElementField* variables) {
@@ -156,7 +158,7 @@ const ElementField* StaticRun::of_memory(const ElementField* variables) {
 ElementField StaticRun::initial_stresses() const {
   ElementField field = assembler_.stresses(now_.state.u);
   for (double& value : field.values)
-    if (!problem_.initial && !std::isnan(value)) value = 0.0;
+    if (!(problem_.initial && problem_.initial->stresses) && !std::isnan(value)) value = 0.0;
   return field;
 }
 

@@ -34,14 +34,15 @@ enum class ModeSelection : std::uint8_t {
 enum class InstabilitySign : std::uint8_t { negative, positive, either };
 
 /// After each of the steps that it is asked for: (K + value G) x = 0, with the tangent K and the stiffness G that the
-/// stresses of the step add, so that `value` times the loads are critical; K x = value x where G is part of K.
+/// stresses of the step add, so that `value` times the loads are critical. Where G is part of K, the identity stands
+/// for it (Code_Aster 17.3): `value` is minus an eigenvalue of K, without what excluded components could weigh.
 struct StabilityAnalysis {
   ModeSelection selection = ModeSelection::smallest;
   int count = 3;       ///< NMAX_CHAR_CRIT
   double first = 0.0;  ///< the interval, CHAR_CRIT
   double last = 0.0;
   bool geometric = true;            ///< RIGI_GEOM='OUI': G apart, for small displacements
-  std::vector<Component> excluded;  ///< DDL_EXCLUS: components that the modes do not have
+  std::vector<Component> excluded;  ///< DDL_EXCLUS: components that the identity lacks, which follow the others
   double precision = 1e-6;          ///< PREC_INSTAB
   InstabilitySign sign = InstabilitySign::either;
   std::vector<double> instants;  ///< when; empty: every `period` steps

@@ -16,10 +16,13 @@ std::optional<int> StaticRun::try_step(double instant, StepSequence& sequence) {
   const long iterations_before = counters_.newton_iterations;
   may_cut_ = sequence.may_be_cut();
   if (mixed_) mixed_->remember();
-  try {
-    const int iterations = solve_jointly_or_settled(instant, before, sequence.is_part());
+  const auto watched = [&](int iterations) {
     watch_->check_increment(instant, [&] { return fields_now(instant); });
     if (mixed_) check_depth(plan_->event(StepEventKind::depth), instant, mixed_->penetration(now_.state.u, true));
+    return iterations;
+  };
+  try {
+    const int iterations = watched(solve_jointly_or_settled(instant, before, sequence.is_part()));
     if (!refines_collision(closed_before, sequence)) return iterations;
     return take_again(instant, before, sequence);
   } catch (const Error& error) {
@@ -32,7 +35,7 @@ std::optional<int> StaticRun::try_step(double instant, StepSequence& sequence) {
       if (event) throw cut_no_further(error, sequence.depth());
       // In a part of a step contact has been settled already.
       if (sequence.is_part()) throw cut_no_further(advised(error, problem_, tangent_.unheld()), sequence.depth());
-      return solve_as_last_resort(instant, before, error);
+      return watched(solve_as_last_resort(instant, before, error));
     }
     take_back(before);
     tell_failure(instant, error, fmt::format("cut, on to {:.6g}", sequence.target()));

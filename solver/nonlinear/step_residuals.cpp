@@ -49,8 +49,10 @@ bool NewtonSolver::knows_reactions() const {
 void NewtonSolver::take_reactions(const Eigen::VectorXd& balance, const Eigen::VectorXd& change, double taken) {
   Eigen::VectorXd solved = tangent_.held_forces(change) - balance;
   for (const int dof : elimination_.kept()) solved[dof] = 0.0;
-  if (reactions_.size() != solved.size()) reactions_ = Eigen::VectorXd::Zero(solved.size());
-  reactions_ += taken * (solved - reactions_);
+  if (taken == 1.0 || reactions_.size() != solved.size())
+    reactions_ = taken * solved;
+  else
+    reactions_ += taken * (solved - reactions_);
 }
 
 /// By what internal forces, less loads, differ from the reactions; one a degree of freedom.

@@ -68,6 +68,7 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
   if (is_known(kind) || (elimination_.reduced_size() == 0 && is_constant())) return false;
   version_ = assembler_.stiffness_version();
   kind_ = kind;
+  factorised_ = false;
   const SkewMatrix skew_half = is_symmetric() ? SkewMatrix() : skew(u, kind);
   SymmetricMatrix reduced = assembled_anew(u, kind, skew_half);
   if (reduced.rows() == 0) return false;
