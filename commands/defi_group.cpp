@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -221,16 +222,25 @@ std::vector<int> nodes_of_cells(const Keywords& creation, const std::vector<int>
                                                     : solver::NodeRole::centre);
 }
 
-// GROUP_MA: a node group for each cell group, under the names of NOM or the groups' own.
+// GROUP_MA: a node group for each cell group, under the names of NOM or the groups' own; one name is for all of them.
 void node_groups_of_cell_groups(const Keywords& creation, const solver::Mesh& mesh, const Target& target) {
   const auto groups = creation.texts("GROUP_MA");
   const auto names = creation.given("NOM") ? creation.texts("NOM") : groups;
+  const auto cells = named_cell_groups(creation, "GROUP_MA", mesh);
+  if (names.size() == 1) {
+    std::vector<int> nodes;
+    std::set<int> known;
+    for (const std::vector<int>& each : cells)
+      for (const int node : nodes_of_cells(creation, each, mesh))
+        if (known.insert(node).second) nodes.push_back(node);
+    return add_group(target, names[0], std::move(nodes), creation);
+  }
   if (names.size() != groups.size()) {
     throw DiagnosticError("wrong-count",
                           fmt::format("DEFI_GROUP: NOM gives {} names to {} groups", names.size(), groups.size()),
-                          creation.span_of("NOM"), "give one name a group, or leave NOM out to keep the groups' names");
+                          creation.span_of("NOM"),
+                          "give one name a group, one for all of them, or leave NOM out to keep the groups' names");
   }
-  const auto cells = named_cell_groups(creation, "GROUP_MA", mesh);
   for (std::size_t i = 0; i < groups.size(); ++i)
     add_group(target, names[i], nodes_of_cells(creation, cells[i], mesh), creation);
 }

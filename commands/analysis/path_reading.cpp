@@ -26,6 +26,7 @@ solver::PathMeasure measure_of(const std::string& word) {
 
 solver::PathChoice choice_of(const std::string& word) {
   if (word == "ANGL_INCR_DEPL") return solver::PathChoice::smallest_angle;
+  if (word == "MIXTE") return solver::PathChoice::clear_residual;
   return word == "NORM_INCR_DEPL" ? solver::PathChoice::smallest_increment : solver::PathChoice::smallest_residual;
 }
 

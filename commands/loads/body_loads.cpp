@@ -61,6 +61,13 @@ struct InitialStrains {
   ByCell<solver::InitialStrain> continuum;
   ByCell<solver::InitialSlenderStrain> slender;
   ByCell<solver::InitialPlateStrain> plates;
+
+  /// A later occurrence says all of the strain of its cells, what it does not name being zero.
+  void forget(int cell) {
+    continuum.erase(cell);
+    slender.erase(cell);
+    plates.erase(cell);
+  }
 };
 
 template <std::size_t N, class Strain>
@@ -76,6 +83,7 @@ void take_strains(const Keywords& occurrence, const LoadedModel& target, Initial
   const auto slender = given_amounts<3>(occurrence, {"EPX", "KY", "KZ"});
   const auto plate = given_amounts<6>(occurrence, {"EXX", "EYY", "EXY", "KXX", "KYY", "KXY"});
   for (const int cell : selected_cells(occurrence, target.mesh)) {
+    strains.forget(cell);
     const auto formulation = target.model.formulations[cell];
     const bool is_solid = solver::continuum_dimension(formulation) > 0 && !target.model.is_skin(cell);
     solids |= is_solid;

@@ -207,7 +207,7 @@ void add_edge_displacements(const Keywords& keywords, const LoadedModel& target,
 
 void add_displacements_of_field(const Keywords& keywords, const LoadedModel& target, solver::Load& load) {
   const auto origin = origin_of(keywords, "CHAMNO_IMPO");
-  const double factor = keywords.real("COEF_MULT");
+  const double factor = keywords.real("COEF_IMPO");
   for (const auto& term : terms_of_field(keywords, target))
     load.relations.push_back({{{term.node, term.component, 1.0}}, factor * term.coefficient, {}, origin});
 }

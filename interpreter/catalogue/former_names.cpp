@@ -35,6 +35,7 @@ const std::map<Key, Former>& keywords() {
        {"DEFI_CONTACT(FORMULATION='LIAISON_UNIL') bounds displacements now, and CONTACT= of STAT_NON_LINE takes it"}},
       {{"AFFE_CHAR_MECA", "TEMP_CALCULEE"}, {"AFFE_VARC of AFFE_MATERIAU gives temperatures now"}},
       {{"AFFE_CHAR_MECA", "EPSA_CALCULEE"}, {"AFFE_VARC of AFFE_MATERIAU gives such strains now"}},
+      {{"AFFE_CHAR_MECA/CHAMNO_IMPO", "COEF_MULT"}, {"COEF_IMPO gives the factor now", "COEF_IMPO"}},
       {{"AFFE_MODELE", "PARTITION"}, {"leave it out: comma does not divide models among processors"}},
       {{"MODI_MAILLAGE", "MODELE"}, leave_out},
       {{"IMPR_RESU/RESU", "VERI_DOM"}, leave_out},

@@ -86,7 +86,7 @@ void append_patches(Mesh& target, const Mesh& source, const std::vector<int>& pl
 
 /// `partners`: the node of the first mesh that stands for each of the second's, -1 for most.
 JoinedMesh joined(const Mesh& first, const Mesh& second, const std::vector<int>& partners,
-                  std::span<const int> first_gone, std::span<const int> second_gone) {
+                  std::span<const int> first_gone) {
   JoinedMesh result;
   Mesh& mesh = result.mesh;
   mesh.dimension = std::max(first.dimension, second.dimension);
@@ -101,7 +101,7 @@ JoinedMesh joined(const Mesh& first, const Mesh& second, const std::vector<int>&
     there.nodes.push_back(partner >= 0 ? partner : first.node_count() + node);
   }
   append_cells(mesh, first, first_gone, here);
-  append_cells(mesh, second, second_gone, there);
+  append_cells(mesh, second, {}, there);
   append_groups(mesh.node_groups, first.node_groups, here.nodes, result.renamed);
   append_groups(mesh.cell_groups, first.cell_groups, here.cells, result.renamed);
   append_groups(mesh.node_groups, second.node_groups, there.nodes, result.renamed);
@@ -114,7 +114,7 @@ JoinedMesh joined(const Mesh& first, const Mesh& second, const std::vector<int>&
 }  // namespace
 
 JoinedMesh superposed(const Mesh& first, const Mesh& second) {
-  return joined(first, second, std::vector<int>(second.nodes.size(), -1), {}, {});
+  return joined(first, second, std::vector<int>(second.nodes.size(), -1), {});
 }
 
 JoinedMesh glued(const Mesh& first, const Mesh& second, std::span<const int> first_cells,
@@ -133,7 +133,7 @@ JoinedMesh glued(const Mesh& first, const Mesh& second, std::span<const int> fir
             second.node_name(node), reach),
         "glue groups whose nodes coincide");
   }
-  return joined(first, second, partners, first_cells, second_cells);
+  return joined(first, second, partners, first_cells);
 }
 
 }  // namespace comma::solver

@@ -21,10 +21,10 @@ struct JoinedMesh {
 /// no names of their own any more.
 JoinedMesh superposed(const Mesh& first, const Mesh& second);
 
-/// The same, glued where cells of the first and of the second mesh cover each other: these cells go, and the nodes of
-/// the first's stand for those of the second's that lie within `gluing_tolerance` of the shortest distance between two
-/// nodes of a cell; the latter stay as nodes without cells. Throws Error `not-coincident` naming a node that has no
-/// partner.
+/// The same, glued where cells of the first and of the second mesh cover each other: the first's cells go and the
+/// second's stay (Code_Aster 17.3), and the nodes of the first's stand for those of the second's that lie within
+/// `gluing_tolerance` of the shortest distance between two nodes of a cell; the latter stay as nodes without cells.
+/// Throws Error `not-coincident` naming a node that has no partner.
 JoinedMesh glued(const Mesh& first, const Mesh& second, std::span<const int> first_cells,
                  std::span<const int> second_cells);
 

@@ -24,7 +24,8 @@ enum class PathMeasure : std::uint8_t {
 enum class PathChoice : std::uint8_t {
   smallest_increment,  ///< that of the smaller increment of displacement (NORM_INCR_DEPL)
   smallest_angle,      ///< that whose increment is nearest the direction of the last step's (ANGL_INCR_DEPL)
-  smallest_residual    ///< that which leaves the smaller residual (RESIDU)
+  smallest_residual,   ///< that which leaves the smaller residual (RESIDU)
+  clear_residual       ///< that, where it is less than a tenth of the other, else that of the smaller increment (MIXTE)
 };
 
 /// Forces and imposed displacements read fixed(t) + intensity * driven(t).

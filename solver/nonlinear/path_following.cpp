@@ -288,17 +288,18 @@ double PathFollowing::chosen(const std::vector<double>& found, const Correction&
       *std::ranges::min_element(choice, {}, [&](double each) { return std::abs(each - intensity_); });
   if (taking_ == Taking::nearest) return nearest;
   double taken = best_of(choice, change, loads, u);
-  if (turns_back_by_rounding(choice, change, loads, u, taken)) taken = other_of(choice, taken);
+  if (turns_back_by_rounding(choice, change, u, taken)) taken = other_of(choice, taken);
   if (takes_other_) taken = other_of(choice, taken);
   if (taking_ == Taking::best && taken != nearest) passed_over_nearest_ = true;
   return taken;
 }
 
 /// The smaller, the better; of equals the larger intensity. Without a step before there is no angle, and all are equal.
-double PathFollowing::cost(double intensity, const Correction& change, const DrivenLoads& loads, const VectorXd& u) {
-  if (control_.choice == PathChoice::smallest_residual)
+double PathFollowing::cost(PathChoice by, double intensity, const Correction& change, const DrivenLoads& loads,
+                           const VectorXd& u) {
+  if (by == PathChoice::smallest_residual)
     return residual_or_infinity(intensity, loads, u + change.constant + intensity * change.linear);
-  if (control_.choice == PathChoice::smallest_increment) return increment(intensity, change, u).norm();
+  if (by == PathChoice::smallest_increment) return increment(intensity, change, u).norm();
   return knows_direction() ? -advance(intensity, change, u) : 0.0;
 }
 
@@ -319,12 +320,24 @@ double PathFollowing::advance(double intensity, const Correction& change, const 
   return own.dot(last_step_) / std::max(length, std::numeric_limits<double>::min());
 }
 
+/// What the intensities are compared by: residuals that differ much tell more than lengths.
+PathChoice PathFollowing::comparison(const std::vector<double>& choice, const Correction& change,
+                                     const DrivenLoads& loads, const VectorXd& u) {
+  if (control_.choice != PathChoice::clear_residual) return control_.choice;
+  constexpr double clear_share = 0.1;
+  const double first = cost(PathChoice::smallest_residual, choice.front(), change, loads, u);
+  const double last = cost(PathChoice::smallest_residual, choice.back(), change, loads, u);
+  return std::min(first, last) < clear_share * std::max(first, last) ? PathChoice::smallest_residual
+                                                                     : PathChoice::smallest_increment;
+}
+
 double PathFollowing::best_of(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads,
                               const VectorXd& u) {
+  const PathChoice by = choice.size() > 1 ? comparison(choice, change, loads, u) : control_.choice;
   double best = choice.back();
-  double least = cost(best, change, loads, u);
+  double least = cost(by, best, change, loads, u);
   for (std::size_t i = 0; i + 1 < choice.size(); ++i) {
-    const double own = cost(choice[i], change, loads, u);
+    const double own = cost(by, choice[i], change, loads, u);
     if (own < least * (least > 0.0 ? 1.0 - same_intensity : 1.0 + same_intensity)) {
       best = choice[i];
       least = own;
@@ -336,12 +349,12 @@ double PathFollowing::best_of(const std::vector<double>& choice, const Correctio
 /// From where the body is in balance an increment and its opposite are equally long but for what the last step has
 /// left: it goes on.
 bool PathFollowing::turns_back_by_rounding(const std::vector<double>& choice, const Correction& change,
-                                           const DrivenLoads& loads, const VectorXd& u, double best) {
+                                           const VectorXd& u, double best) const {
   if (control_.choice != PathChoice::smallest_increment || taking_ != Taking::first || choice.size() != 2 ||
       !knows_direction())
     return false;
   const double other = other_of(choice, best);
-  return cost(other, change, loads, u) < (1.0 + same_length) * cost(best, change, loads, u) &&
+  return increment(other, change, u).norm() < (1.0 + same_length) * increment(best, change, u).norm() &&
          advance(other, change, u) > 0.0 && advance(best, change, u) < 0.0;
 }
 

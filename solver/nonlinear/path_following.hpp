@@ -90,12 +90,15 @@ class PathFollowing {
   Eigen::VectorXd controlled(const Eigen::VectorXd& u) const;
   Eigen::VectorXd motions(Eigen::VectorXd u) const;
   std::vector<double> admitted(const std::vector<double>& found) const;
-  double cost(double intensity, const Correction& change, const DrivenLoads& loads, const Eigen::VectorXd& u);
+  double cost(PathChoice by, double intensity, const Correction& change, const DrivenLoads& loads,
+              const Eigen::VectorXd& u);
   Eigen::VectorXd increment(double intensity, const Correction& change, const Eigen::VectorXd& u) const;
   bool knows_direction() const;
   double advance(double intensity, const Correction& change, const Eigen::VectorXd& u) const;
-  bool turns_back_by_rounding(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads,
-                              const Eigen::VectorXd& u, double best);
+  bool turns_back_by_rounding(const std::vector<double>& choice, const Correction& change, const Eigen::VectorXd& u,
+                              double best) const;
+  PathChoice comparison(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads,
+                        const Eigen::VectorXd& u);
   double best_of(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads,
                  const Eigen::VectorXd& u);
   double chosen(const std::vector<double>& found, const Correction& change, const DrivenLoads& loads,
