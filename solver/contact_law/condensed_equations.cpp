@@ -282,7 +282,7 @@ void CondensedEquations::add_traction_derivatives(const CondensedPoint& point, c
 void CondensedEquations::add_laws(const CondensedPoint& point, const ContactLawValue& value,
                                   InterpolatedStep& equations, Eigen::VectorXd& balance) const {
   for (int i = 0; i < point.node_count; ++i)
-    for (int a = 0; a < problem_.components; ++a) {
+    for (int a = 0; a < point.components; ++a) {
       const int equation = multiplier_unknowns_[multiplier_index(point.nodes[i], a)];
       if (equation < 0) continue;
       const double weight = point.weight * point.shape[i];
@@ -314,8 +314,9 @@ void CondensedEquations::evaluate() {
     const CondensedPoint& point = problem_.points[p];
     const ContactLawValue value = law_at(p);
     for (int c = 0; c < point.rows; ++c) forces_[point.first_row + c] += point.weight * value.traction[c];
+    // A point without friction says nothing of shears that others of a node have.
     for (int i = 0; i < point.node_count; ++i)
-      for (int c = 0; c < problem_.components; ++c) {
+      for (int c = 0; c < point.components; ++c) {
         const int index = multiplier_index(point.nodes[i], c);
         law.residual[index] += point.weight * point.shape[i] * value.residual[c];
         law.weight[index] += point.weight * std::abs(point.shape[i]);
