@@ -10,7 +10,7 @@
 namespace comma::solver {
 namespace {
 
-/// Of facets that are all of one size.
+/// Of facets that are all of one size, a pressure over a length in the units of the file (Code_Aster 17.3).
 constexpr double least_penalty = 1e5;
 /// PENE_MAXI where none is given, as a share of the smallest facet.
 constexpr double usual_depth = 1e-2;

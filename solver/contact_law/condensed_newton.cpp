@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "solver/contact_law/relaxation.hpp"
@@ -84,6 +85,8 @@ bool CondensedNewton::relax() {
 bool CondensedNewton::settle(Rubbing rubbing, int& iterations, Patience patience) {
   rubbing_ = rubbing;
   one_at_a_time_ = led_away_ = false;
+  same_statuses_ = 0;
+  last_residual_ = std::numeric_limits<double>::infinity();
   equations_.forget_loss();
   visited_.clear();
   double last = 0.0, before_last = 0.0;

@@ -72,7 +72,7 @@ class Relaxation {
     jumps_ += change * schur_.column(row);
   }
 
-  /// The compliance of a point's own rows, that of its penalties included.
+  /// The compliance of a point's own rows, penalties apart.
   Matrix3d own_compliance(const CondensedPoint& point) const {
     Matrix3d own = Matrix3d::Zero();
     for (int a = 0; a < point.rows; ++a)
