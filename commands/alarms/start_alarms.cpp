@@ -107,7 +107,8 @@ void warn_of_missing_state(const interpreter::Call& call, const solver::StaticPr
         fmt::format("keep {} in the result (ARCHIVAGE, CHAM_EXCLU), or give the field by {}", field, keyword));
   };
   if (!problem.initial->displacement) warn("DEPL", "displacements", "DEPL");
-  if (!problem.initial->stresses) warn("SIEF_ELGA", "stresses", "SIGM");
+  if (!problem.initial->stresses)
+    warn("SIEF_ELGA", "stresses, but for those of elastic solids in small strains,", "SIGM");
 }
 
 /// How a cell takes pressures and command variables, in the middle of it.

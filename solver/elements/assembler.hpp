@@ -182,6 +182,7 @@ class Assembler {
   void add_initial_stress_forces(std::span<const AppliedLoad> loads, double time, std::span<long double> sums) const;
   void take_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given);
   ElementField field_at_points(std::string quantity, std::vector<std::string> components) const;
+  void sum_initial_forces(const Eigen::VectorXd& u);
 
   struct Blocks;
   const Model& model_;
@@ -193,7 +194,6 @@ class Assembler {
   std::unique_ptr<const ImposedStrains> imposed_;  ///< null: none
   /// That elements without a memory have beside those of their displacements; forces of plates.
   std::vector<std::pair<const ElementBlock*, std::vector<double>>> initial_stresses_;
-  void sum_initial_forces(const Eigen::VectorXd& u);
   Eigen::VectorXd initial_forces_;  ///< of these; empty: none
   int version_ = 0;
 };
