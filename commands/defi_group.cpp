@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <numbers>
 #include <optional>
-#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -226,23 +225,17 @@ std::vector<int> nodes_of_cells(const Keywords& creation, const std::vector<int>
 void node_groups_of_cell_groups(const Keywords& creation, const solver::Mesh& mesh, const Target& target) {
   const auto groups = creation.texts("GROUP_MA");
   const auto names = creation.given("NOM") ? creation.texts("NOM") : groups;
-  const auto cells = named_cell_groups(creation, "GROUP_MA", mesh);
-  if (names.size() == 1) {
-    std::vector<int> nodes;
-    std::set<int> known;
-    for (const std::vector<int>& each : cells)
-      for (const int node : nodes_of_cells(creation, each, mesh))
-        if (known.insert(node).second) nodes.push_back(node);
-    return add_group(target, names[0], std::move(nodes), creation);
-  }
+  std::vector<std::vector<int>> nodes;
+  for (const auto& cells : named_cell_groups(creation, "GROUP_MA", mesh))
+    nodes.push_back(nodes_of_cells(creation, cells, mesh));
+  if (names.size() == 1) return add_group(target, names[0], solver::union_of(nodes), creation);
   if (names.size() != groups.size()) {
     throw DiagnosticError("wrong-count",
                           fmt::format("DEFI_GROUP: NOM gives {} names to {} groups", names.size(), groups.size()),
                           creation.span_of("NOM"),
                           "give one name a group, one for all of them, or leave NOM out to keep the groups' names");
   }
-  for (std::size_t i = 0; i < groups.size(); ++i)
-    add_group(target, names[i], nodes_of_cells(creation, cells[i], mesh), creation);
+  for (std::size_t i = 0; i < groups.size(); ++i) add_group(target, names[i], std::move(nodes[i]), creation);
 }
 
 // Of several in GROUP_NO the first, as Code_Aster 17.3 does.

@@ -287,7 +287,7 @@ double PathFollowing::chosen(const std::vector<double>& found, const Correction&
   const double nearest =
       *std::ranges::min_element(choice, {}, [&](double each) { return std::abs(each - intensity_); });
   if (taking_ == Taking::nearest) return nearest;
-  double taken = best_of(choice, change, loads, u);
+  double taken = best_of(control_.choice, choice, change, loads, u);
   if (turns_back_by_rounding(choice, change, u, taken)) taken = other_of(choice, taken);
   if (takes_other_) taken = other_of(choice, taken);
   if (taking_ == Taking::best && taken != nearest) passed_over_nearest_ = true;
@@ -320,20 +320,21 @@ double PathFollowing::advance(double intensity, const Correction& change, const 
   return own.dot(last_step_) / std::max(length, std::numeric_limits<double>::min());
 }
 
-/// What the intensities are compared by: residuals that differ much tell more than lengths.
-PathChoice PathFollowing::comparison(const std::vector<double>& choice, const Correction& change,
-                                     const DrivenLoads& loads, const VectorXd& u) {
-  if (control_.choice != PathChoice::clear_residual) return control_.choice;
+/// By residuals where they differ much, else by lengths.
+double PathFollowing::clearly_best_of(const std::vector<double>& choice, const Correction& change,
+                                      const DrivenLoads& loads, const VectorXd& u) {
   constexpr double clear_share = 0.1;
   const double first = cost(PathChoice::smallest_residual, choice.front(), change, loads, u);
   const double last = cost(PathChoice::smallest_residual, choice.back(), change, loads, u);
-  return std::min(first, last) < clear_share * std::max(first, last) ? PathChoice::smallest_residual
-                                                                     : PathChoice::smallest_increment;
+  if (first < clear_share * last) return choice.front();
+  if (last < clear_share * first) return choice.back();
+  return best_of(PathChoice::smallest_increment, choice, change, loads, u);
 }
 
-double PathFollowing::best_of(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads,
-                              const VectorXd& u) {
-  const PathChoice by = choice.size() > 1 ? comparison(choice, change, loads, u) : control_.choice;
+double PathFollowing::best_of(PathChoice by, const std::vector<double>& choice, const Correction& change,
+                              const DrivenLoads& loads, const VectorXd& u) {
+  if (choice.size() == 1) return choice.front();
+  if (by == PathChoice::clear_residual) return clearly_best_of(choice, change, loads, u);
   double best = choice.back();
   double least = cost(by, best, change, loads, u);
   for (std::size_t i = 0; i + 1 < choice.size(); ++i) {

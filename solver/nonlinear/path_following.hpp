@@ -97,9 +97,9 @@ class PathFollowing {
   double advance(double intensity, const Correction& change, const Eigen::VectorXd& u) const;
   bool turns_back_by_rounding(const std::vector<double>& choice, const Correction& change, const Eigen::VectorXd& u,
                               double best) const;
-  PathChoice comparison(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads,
-                        const Eigen::VectorXd& u);
-  double best_of(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads,
+  double clearly_best_of(const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads,
+                         const Eigen::VectorXd& u);
+  double best_of(PathChoice by, const std::vector<double>& choice, const Correction& change, const DrivenLoads& loads,
                  const Eigen::VectorXd& u);
   double chosen(const std::vector<double>& found, const Correction& change, const DrivenLoads& loads,
                 const Eigen::VectorXd& u);
