@@ -8,7 +8,7 @@
 
 #include "solver/contact/doubts.hpp"
 #include "solver/contact_law/raised_penalties.hpp"
-#include "solver/nonlinear/solved_contact.hpp"
+#include "solver/nonlinear/faced_contact.hpp"
 
 namespace comma::solver {
 

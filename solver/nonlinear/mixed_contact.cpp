@@ -1,21 +1,20 @@
 #include "solver/nonlinear/mixed_contact.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "solver/contact/extent.hpp"
+#include "solver/contact_law/nodal_step.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/largest_component.hpp"
 #include "solver/model/deformed_places.hpp"
 #include "solver/nonlinear/contact_doubts.hpp"
 #include "solver/nonlinear/failure.hpp"
 #include "solver/nonlinear/geometry_updates.hpp"
+#include "solver/nonlinear/resumed_contact.hpp"
 #include "solver/unilateral/conditions.hpp"
 #include "solver/unilateral/rounds.hpp"
 
@@ -43,65 +42,131 @@ ContactStatus closed(const ContactLaw& law) {
 MixedContact::MixedContact(const ContactDefinition& definition, const Model& model, const DofMap& dofs,
                            const Elimination& elimination, TangentSystem& tangent, Counters& counters,
                            std::vector<int> support)
-    : definition_(definition),
-      mesh_(*model.mesh),
-      dofs_(dofs),
-      elimination_(elimination),
+    : contact_{.definition = definition,
+               .mesh = *model.mesh,
+               .dofs = dofs,
+               .elimination = elimination,
+               .rows = ContactRows(definition, model, dofs, elimination),
+               .reference = Eigen::VectorXd::Zero(dofs.size())},
       tangent_(tangent),
       counters_(counters),
-      support_(std::move(support)),
-      rows_(definition, model, dofs, elimination),
       penalties_(definition.zones.size()),
-      reference_(Eigen::VectorXd::Zero(dofs.size())) {
-  problem_.smooth = rows_.smooth();
-  problem_.node_count = static_cast<int>(rows_.smooth().size());
-  problem_.components = has_friction(definition_) ? rows_.dimension() : 1;
-  problem_.max_iterations = most_condensed_iterations;
-  problem_.memory = &memory_;
-  problem_.near_inverse = &near_inverse_;
-  problem_.interpolated_solver = &interpolated_solver_;
-  problem_.share_search = &share_search_;
-  state_.multipliers = Eigen::VectorXd::Zero(problem_.node_count * problem_.components);
-  rates_ = start_ = state_.multipliers;
+      augmentations_(contact_, tangent),
+      compliance_(contact_, tangent, std::move(support)),
+      secants_(contact_),
+      rubbing_(contact_) {
+  CondensedProblem& problem = contact_.problem;
+  problem.smooth = contact_.rows.smooth();
+  problem.node_count = static_cast<int>(problem.smooth.size());
+  problem.components = has_friction(definition) ? contact_.rows.dimension() : 1;
+  problem.max_iterations = most_condensed_iterations;
+  problem.memory = &memory_;
+  problem.near_inverse = &near_inverse_;
+  problem.interpolated_solver = &interpolated_solver_;
+  problem.share_search = &share_search_;
+  contact_.state.multipliers = Eigen::VectorXd::Zero(problem.node_count * problem.components);
+  rates_ = start_ = contact_.state.multipliers;
+}
+
+void MixedContact::restore() {
+  contact_.state = remembered_->state;
+  penalties_ = remembered_->penalties;
+  adapted_ = remembered_->adapted;
+  started_ = remembered_->started;
+  resumed_ = remembered_->resumed;
+  secants_ = remembered_->secants;
+}
+
+std::shared_ptr<const ContactMemory> MixedContact::memory() const { return contact_memory(contact_, penalties_); }
+
+void MixedContact::begin_at(const Eigen::VectorXd& u, std::shared_ptr<const ContactMemory> memory) {
+  contact_.reference = u;
+  if (memory) resume_penalties(contact_.definition, *memory, penalties_);
+  resumed_ = std::move(memory);
+}
+
+void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
+  secants_.start_step(is_secant(), started_);
+  contact_.reference = faced_at_ = u;
+  step_begins_ = true;
+  if (started_) {
+    began_closed_ = closed_points();
+    hold_points();
+  }
+  augmentations_.start_step();
+  opens_by_gaps_ = false;
+  adapted_.start_step(closed_count() > 0);
+  apply_penalties();
+  contact_.problem.expected = contact_.state.multipliers + duration * rates_;
+  start_ = contact_.state.multipliers;
+  contact_.rows.count_slips(contact_.problem.points, contact_.reference);
+}
+
+void MixedContact::accept_step(double from, double instant) {
+  rates_ = (contact_.state.multipliers - start_) / (instant - from);
+  course_.begin(from, start_);
+  course_.note(instant, contact_.state.multipliers);
+  if (is_secant()) secants_.accept_step();
+}
+
+MixedContact::Iterations MixedContact::iterations_like_code_aster(bool whole_newton) const {
+  if (SecantIterations::suit(contact_.definition)) return Iterations::secant;
+  if (RubbingIterations::suit(contact_.definition)) return Iterations::rubbing;
+  const bool is_standard = std::ranges::none_of(contact_.definition.zones, [](const ContactZone& zone) {
+    return zone.mixed.local_average || zone.mixed.penalised || zone.mixed.friction > 0.0;
+  });
+  return whole_newton && is_standard ? Iterations::joint : Iterations::settled;
+}
+
+void MixedContact::iterate(Iterations iterations) {
+  iterations_ = iterations;
+  rubbing_.forget();
+  contact_.problem.one_step = iterations != Iterations::settled;
 }
 
 void MixedContact::pair(Positions positions, double time, double margin) {
-  if (is_secant() && secants_.linearisations > 0)
-    next_geometry_ = {{positions.begin(), positions.end()}, time, margin};
-  else
-    face(positions, time, margin);
+  if (!is_secant() || !secants_.keeps(positions, time, margin)) face(positions, time, margin);
 }
 
 void MixedContact::face(Positions positions, double time, double margin) {
-  const std::vector<Vector3d> held = is_secant() ? forces_of_points(secants_.held) : std::vector<Vector3d>();
-  rows_.face(positions, time, margin);
+  if (is_secant()) secants_.before_facing();
+  contact_.rows.face(positions, time, margin);
   ++counters_.pairings;
-  problem_.points = rows_.build(reference_);
-  adapted_.face(definition_, points(), mesh_);
+  contact_.problem.points = contact_.rows.build(contact_.reference);
+  adapted_.face(contact_.definition, points(), contact_.mesh);
   apply_penalties();
   share_friction();
-  if (!started_) start_statuses(jumps(reference_));
-  if (!started_ || (!step_begins_ && !definition_.joint_iterations)) began_closed_ = closed_points();
+  if (!started_) start_statuses(contact_.jumps(contact_.reference));
+  if (!started_ || (!step_begins_ && !contact_.definition.joint_iterations)) began_closed_ = closed_points();
   started_ = true;
   hold_points();
-  if (secants_.predicts) begin_secants();
-  secants_.held = forces_on_rows(held);
+  if (is_secant()) secants_.after_facing();
   hold_back_points();
   for (std::size_t p = 0; p < points().size(); ++p)
-    if (problem_.points[p].rows == 0) state_.statuses[p] = ContactStatus::open;
+    if (contact_.problem.points[p].rows == 0) contact_.state.statuses[p] = ContactStatus::open;
   close_slides();
   start_forces(time);
+}
+
+/// Any would do for the next correction to start from; with a compliance that is not exact the nearest cost least.
+void MixedContact::start_forces(double time) {
+  CondensedState state = contact_.state;
+  if (contact_.problem.components == 1 && !is_linear() && tangent_.is_constant() && compliance_.is_known()) {
+    update_compliance();
+    if (!compliance_.schur().is_exact()) state.multipliers = course_.expected(time, state.multipliers);
+  }
+  contact_.forces = multiplier_forces(contact_.problem, state, contact_.rows.full().rows());
 }
 
 /// Friction in the mixed formulation has shares of its limit for multipliers. Where all points that rub on a multiplier
 /// lie on its node, and no penalty lets them creep, the solution is that of shears, which need no scale.
 void MixedContact::share_friction() {
-  if (definition_.formulation != ContactFormulation::mixed || problem_.components == 1) return;
-  const std::vector<char> shared = shared_multipliers(problem_);
+  if (contact_.definition.formulation != ContactFormulation::mixed || contact_.problem.components == 1) return;
+  const std::vector<char> shared = shared_multipliers(contact_.problem);
   for (std::size_t p = 0; p < points().size(); ++p) {
-    CondensedPoint& point = problem_.points[p];
+    CondensedPoint& point = contact_.problem.points[p];
     if (!(point.law.friction > 0.0) || point.node_count == 0) continue;
-    const MixedZone& mixed = definition_.zones[static_cast<std::size_t>(points()[p].zone)].mixed;
+    const MixedZone& mixed = contact_.mixed_zone_of(p);
     if (point.law.friction_penalised)
       point.share_augmentation = point.law.friction_augmentation;
     else if (shared[static_cast<std::size_t>(point.nodes[0])])
@@ -110,16 +175,17 @@ void MixedContact::share_friction() {
 }
 
 bool MixedContact::is_faced_again() const {
-  if (definition_.geometry_update == GeometryUpdate::controlled) return definition_.controlled_updates > 1;
-  return definition_.geometry_update == GeometryUpdate::automatic && definition_.max_geometry_updates > 1;
+  if (contact_.definition.geometry_update == GeometryUpdate::controlled)
+    return contact_.definition.controlled_updates > 1;
+  return contact_.definition.geometry_update == GeometryUpdate::automatic &&
+         contact_.definition.max_geometry_updates > 1;
 }
 
 /// Code_Aster 17.3, in scenes of two blocks: Newton's method on contact holds what is closed once none changes.
 void MixedContact::hold_points() {
-  if (!definition_.contact_by_newton) return;
+  if (!contact_.definition.contact_by_newton) return;
   for (std::size_t p = 0; p < points().size(); ++p)
-    problem_.points[p].bilateral =
-        definition_.zones[static_cast<std::size_t>(points()[p].zone)].mixed.bilateral && began_closed_[p] != 0;
+    contact_.problem.points[p].bilateral = contact_.mixed_zone_of(p).bilateral && began_closed_[p] != 0;
 }
 
 /// What never opens again does not close on a surface as it lay before the step: points of bilateral zones wait for the
@@ -127,12 +193,12 @@ void MixedContact::hold_points() {
 /// the other.
 void MixedContact::hold_back_points() {
   held_back_.clear();
-  const bool waits =
-      step_begins_ && is_faced_again() && definition_.formulation == ContactFormulation::mixed && closed_count() > 0;
+  const bool waits = step_begins_ && is_faced_again() && contact_.definition.formulation == ContactFormulation::mixed &&
+                     closed_count() > 0;
   step_begins_ = false;
   for (std::size_t p = 0; p < points().size() && waits; ++p) {
-    CondensedPoint& point = problem_.points[p];
-    if (!point.bilateral || point.rows == 0 || state_.statuses[p] != ContactStatus::open) continue;
+    CondensedPoint& point = contact_.problem.points[p];
+    if (!point.bilateral || point.rows == 0 || contact_.is_closed(p)) continue;
     point.rows = 0;
     held_back_.push_back(p);
   }
@@ -140,49 +206,51 @@ void MixedContact::hold_back_points() {
 
 bool MixedContact::leaves_overlap(const Eigen::VectorXd& u) const {
   if (held_back_.empty()) return false;
-  const Eigen::VectorXd now = jumps(u);
+  const Eigen::VectorXd now = contact_.jumps(u);
   return std::ranges::any_of(held_back_, [&](std::size_t p) {
-    return now[problem_.points[p].first_row] < -overlap_tolerance * extent(mesh_, points()[p].cell);
+    return now[contact_.problem.points[p].first_row] < -overlap_tolerance * contact_.size_at(p);
   });
 }
 
 void MixedContact::check_blocked_points(const Eigen::VectorXd& jumps) const {
-  for (const std::size_t p : rows_.blocked()) {
-    const double gap = jumps[problem_.points[p].first_row];
-    if (definition_.zones[static_cast<std::size_t>(points()[p].zone)].mixed.penalised) continue;
-    if (gap >= -overlap_tolerance * extent(mesh_, points()[p].cell)) continue;
-    throw Error("contradictory-conditions",
-                fmt::format("imposed displacements push slave face {} into facet {} by {:.6g}",
-                            mesh_.cell_name(points()[p].cell), mesh_.cell_name(points()[p].facet), -gap),
-                "free the nodes along the normal, or take them out of the contact (SANS_GROUP_NO)");
+  for (const std::size_t p : contact_.rows.blocked()) {
+    const double gap = jumps[contact_.problem.points[p].first_row];
+    if (contact_.mixed_zone_of(p).penalised) continue;
+    if (gap >= -overlap_tolerance * contact_.size_at(p)) continue;
+    throw Error(
+        "contradictory-conditions",
+        fmt::format("imposed displacements push slave face {} into facet {} by {:.6g}",
+                    contact_.mesh.cell_name(points()[p].cell), contact_.mesh.cell_name(points()[p].facet), -gap),
+        "free the nodes along the normal, or take them out of the contact (SANS_GROUP_NO)");
   }
 }
 
 void MixedContact::start_statuses(const Eigen::VectorXd& jumps) {
-  state_.statuses.assign(points().size(), ContactStatus::open);
-  const std::vector<char> held = held_points();
+  contact_.state.statuses.assign(points().size(), ContactStatus::open);
+  const auto memory = std::exchange(resumed_, nullptr);
+  const std::vector<char> held = memory ? held_points(contact_, *memory) : std::vector<char>(points().size(), 0);
   for (std::size_t p = 0; p < points().size(); ++p) {
-    const CondensedPoint& point = problem_.points[p];
+    const CondensedPoint& point = contact_.problem.points[p];
     if (point.rows == 0) continue;
-    const MixedZone& zone = definition_.zones[static_cast<std::size_t>(points()[p].zone)].mixed;
-    const bool touches = jumps[point.first_row] <= touching * extent(mesh_, points()[p].cell);
+    const MixedZone& zone = contact_.mixed_zone_of(p);
+    const bool touches = jumps[point.first_row] <= touching * contact_.size_at(p);
     if (held[p] != 0 || zone.initial == InitialContact::all ||
         (zone.initial == InitialContact::interpenetrating && touches))
-      state_.statuses[p] = closed(point.law);
+      contact_.state.statuses[p] = closed(point.law);
   }
 }
 
 /// GLISSIERE of the discrete formulation is a condition on all points that face the master.
 void MixedContact::close_slides() {
-  if (definition_.formulation != ContactFormulation::discrete) return;
-  const Eigen::VectorXd now = jumps(reference_);
+  if (contact_.definition.formulation != ContactFormulation::discrete) return;
+  const Eigen::VectorXd now = contact_.jumps(contact_.reference);
   for (std::size_t p = 0; p < points().size(); ++p) {
-    const CondensedPoint& point = problem_.points[p];
-    const MixedZone& zone = definition_.zones[static_cast<std::size_t>(points()[p].zone)].mixed;
-    if (!zone.bilateral || point.rows == 0 || state_.statuses[p] != ContactStatus::open) continue;
-    state_.statuses[p] = closed(point.law);
+    const CondensedPoint& point = contact_.problem.points[p];
+    const MixedZone& zone = contact_.mixed_zone_of(p);
+    if (!zone.bilateral || point.rows == 0 || contact_.is_closed(p)) continue;
+    contact_.state.statuses[p] = closed(point.law);
     const double gap = now[point.first_row];
-    if (gap > std::max(zone.unnoticed_gap, touching * extent(mesh_, points()[p].cell)))
+    if (gap > std::max(zone.unnoticed_gap, touching * contact_.size_at(p)))
       bridged_.push_back({.kind = DoubtKind::bridged_gap,
                           .zone = points()[p].zone,
                           .share = gap,
@@ -195,112 +263,134 @@ void MixedContact::close_slides() {
 void MixedContact::close_nearest(const Eigen::VectorXd& jumps) {
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < points().size(); ++p) {
-    if (state_.statuses[p] != ContactStatus::open) return;
-    if (problem_.points[p].rows > 0) nearest = std::min(nearest, jumps[problem_.points[p].first_row]);
+    if (contact_.is_closed(p)) return;
+    if (contact_.problem.points[p].rows > 0) nearest = std::min(nearest, jumps[contact_.problem.points[p].first_row]);
   }
   for (std::size_t p = 0; p < points().size(); ++p) {
-    const CondensedPoint& point = problem_.points[p];
-    if (point.rows > 0 && jumps[point.first_row] <= nearest + touching * extent(mesh_, points()[p].cell))
-      state_.statuses[p] = closed(point.law);
+    const CondensedPoint& point = contact_.problem.points[p];
+    if (point.rows > 0 && jumps[point.first_row] <= nearest + touching * contact_.size_at(p))
+      contact_.state.statuses[p] = closed(point.law);
   }
+}
+
+int MixedContact::linearise(const Eigen::VectorXd& u, double time) {
+  if (is_rubbing()) return rubbing_.linearise(u);
+  if (!is_secant()) return face_and_linearise(u, time);
+  const auto kept = secants_.take_kept();
+  if (kept) face(kept->places, kept->time, kept->margin);
+  return secants_.linearise(u, kept.has_value());
+}
+
+int MixedContact::face_and_linearise(const Eigen::VectorXd& u, double time) {
+  geometry_change_ = geometry_change(contact_.mesh, contact_.dofs, contact_.reference, faced_at_, u).share;
+  faced_at_ = u;
+  face(positions_at(u, contact_.mesh, contact_.dofs), time, 0.0);
+  const Eigen::VectorXd now = contact_.jumps(u);
+  int changes = 0;
+  contact_.forces.setZero();
+  for (std::size_t p = 0; p < points().size(); ++p) {
+    const CondensedPoint& point = contact_.problem.points[p];
+    if (point.rows == 0) continue;
+    const Vector3d pressure = multiplier_at(contact_.problem, contact_.state, point);
+    const Vector3d gap(now[point.first_row], 0.0, 0.0);
+    const bool stays_closed = point.bilateral && contact_.is_closed(p);
+    const ContactStatus status = contact_status(point.law, stays_closed, pressure, gap);
+    changes += status != contact_.state.statuses[p];
+    contact_.state.statuses[p] = status;
+    contact_.forces[point.first_row] = point.weight * contact_law(point.law, status, pressure, gap).traction[0];
+  }
+  return changes;
+}
+
+bool MixedContact::may_end(int changes) const {
+  if (is_joint()) return changes == 0 && geometry_change_ <= contact_.definition.joint_geometry_tolerance;
+  if (is_rubbing()) return rubbing_.may_end();
+  return !is_secant() || secants_.may_end();
+}
+
+void MixedContact::note_residual(double share) {
+  if (share >= 0.0) secants_.note_residual(share);
+}
+
+MixedContact::HeldImbalance MixedContact::held_imbalance(const Eigen::VectorXd& balance) const {
+  HeldImbalance result;
+  if (!is_secant() && !is_rubbing()) return result;
+  const Eigen::VectorXd& solved = is_secant() ? secants_.solved() : rubbing_.solved();
+  Eigen::VectorXd left = contact_.rows.full().transpose() * contact_.forces - solved;
+  Eigen::VectorXd reactions = balance + solved;
+  for (const int dof : contact_.elimination.kept()) left[dof] = reactions[dof] = 0.0;
+  result.largest = largest_component(is_secant() ? left : reactions);
+  for (const int dof : eliminated_) left[dof] = 0.0;
+  result.counted = largest_component(left);
+  return result;
 }
 
 Eigen::VectorXd MixedContact::forces() const {
-  if (secants_.predicts) return elimination_.transformation().transpose() * secants_.solved;
-  return rows_.reduced().transpose() * forces_;
+  if (secants_.predicts()) return contact_.elimination.transformation().transpose() * secants_.solved();
+  return contact_.rows.reduced().transpose() * contact_.forces;
 }
 
-/// Points come in the same order at every pairing.
-std::vector<int> MixedContact::row_keys() const {
-  std::vector<int> keys(static_cast<std::size_t>(rows_.full().rows()));
-  for (std::size_t p = 0; p < problem_.points.size(); ++p) {
-    const CondensedPoint& point = problem_.points[p];
-    for (int c = 0; c < point.components && point.first_row >= 0; ++c)
-      keys[static_cast<std::size_t>(point.first_row + c)] = 3 * static_cast<int>(p) + c;
-  }
-  return keys;
+Eigen::VectorXd MixedContact::forces_left_out() const {
+  if (!is_secant() || secants_.predicts()) return Eigen::VectorXd::Zero(contact_.elimination.reduced_size());
+  return contact_.rows.reduced().transpose() * (contact_.forces - secants_.held());
 }
 
-/// The rows of the points and those of the springs.
-void MixedContact::update_schur() {
-  const auto& springs = tangent_.springs();
-  std::vector<Eigen::Triplet<double>> entries;
-  for (int row = 0; row < rows_.reduced().outerSize(); ++row)
-    for (RowMatrix::InnerIterator it(rows_.reduced(), row); it; ++it)
-      entries.emplace_back(row, static_cast<int>(it.col()), it.value());
-  int next = static_cast<int>(rows_.reduced().rows());
-  std::vector<int> keys = row_keys();
-  problem_.springs.clear();
-  for (const auto& [unknown, stiffness] : springs) {
-    keys.push_back(-1 - unknown);
-    entries.emplace_back(next, unknown, 1.0);
-    problem_.springs.push_back({next++, stiffness});
-  }
-  RowMatrix rows(next, elimination_.reduced_size());
-  rows.setFromTriplets(entries.begin(), entries.end());
-  if (!schur_ || spring_count_ != springs.size()) {
-    std::set<int> support(support_.begin(), support_.end());
-    for (const auto& spring : springs) support.insert(spring.first);
-    schur_ = std::make_unique<SchurComplement>(
-        std::move(rows), [this](Eigen::Ref<Eigen::MatrixXd> columns) { tangent_.solve_once(columns); },
-        std::vector<int>(support.begin(), support.end()), std::move(keys));
-    schur_->use_whole([this](const RowMatrix& all) { return tangent_.compliance(all); });
-    spring_count_ = springs.size();
-    near_inverse_ = {};
-    interpolated_solver_ = {};
-  } else {
-    schur_->replace_rows(std::move(rows), std::move(keys));
-  }
+void MixedContact::update_compliance() {
+  if (!compliance_.update()) return;
+  near_inverse_ = {};
+  interpolated_solver_ = {};
 }
 
-void MixedContact::forget() {
-  if (schur_) schur_->forget();
-}
+/// Nothing is known of a body that contact alone is to hold before it does.
+bool MixedContact::can_predict() const { return tangent_.springs().empty() && !tangent_.is_indefinite(); }
 
 int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& corrected) {
-  if (secants_.predicts && !can_predict()) {
-    secants_.predicts = false;
+  if (secants_.predicts()) {
+    secants_.end_prediction();
+    if (can_predict()) return 0;
     iterate(Iterations::settled);
   }
-  if (std::exchange(secants_.predicts, false)) return 0;
-  update_schur();
+  update_compliance();
   // One step a time, statuses depend on the augmentation, and so does whether the iterations converge: it is the
   // user's.
-  if (!is_linear()) add_natural_augmentation();
-  const std::vector<ContactStatus> statuses = state_.statuses;
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
-  forces.head(forces_.size()) = is_secant() ? secants_.held : forces_;
-  settle_in_rounds(*schur_, tangent_.negligible_rest(), [&] { return settle(before, offset, forces, corrected); });
-  forces_ = forces.head(forces_.size());
-  if (is_secant())
-    note_solved(elimination_.transformation() * before + offset, elimination_.transformation() * corrected + offset);
-  if (is_rubbing()) rubbing_.solved = rows_.full().transpose() * forces_;
+  if (!is_linear()) augmentations_.apply();
+  const std::vector<ContactStatus> statuses = contact_.state.statuses;
+  Eigen::VectorXd forces = Eigen::VectorXd::Zero(compliance_.schur().size());
+  forces.head(contact_.forces.size()) = is_secant() ? secants_.held() : contact_.forces;
+  settle_in_rounds(compliance_.schur(), tangent_.negligible_rest(),
+                   [&] { return settle(before, offset, forces, corrected); });
+  contact_.forces = forces.head(contact_.forces.size());
+  const auto& transformation = contact_.elimination.transformation();
+  if (is_secant()) secants_.note_solved(transformation * before + offset, transformation * corrected + offset);
+  if (is_rubbing()) rubbing_.note_solved();
   int changes = 0;
-  for (std::size_t p = 0; p < statuses.size(); ++p) changes += statuses[p] != state_.statuses[p];
+  for (std::size_t p = 0; p < statuses.size(); ++p) changes += statuses[p] != contact_.state.statuses[p];
   return changes;
 }
 
 /// Jumps begin as they were before the loads of this iteration were applied: bodies that contact alone holds are taken
 /// far by these, and the law of friction is not linear on the way back.
 void MixedContact::begin_near(const Eigen::VectorXd& before, const Eigen::VectorXd& offset) {
-  problem_.begin.resize(0);
-  if (problem_.components == 1) return;
-  const Eigen::VectorXd now = jumps(elimination_.transformation() * before + offset);
-  problem_.begin = Eigen::VectorXd::Zero(problem_.free.size());
-  problem_.begin.head(now.size()) = now;
+  contact_.problem.begin.resize(0);
+  if (contact_.problem.components == 1) return;
+  const Eigen::VectorXd now = contact_.jumps(contact_.elimination.transformation() * before + offset);
+  contact_.problem.begin = Eigen::VectorXd::Zero(contact_.problem.free.size());
+  contact_.problem.begin.head(now.size()) = now;
   if (!is_secant()) return;
   // Linear laws are found from anywhere, and to most digits from where a stiff penalty gives the forces at hand.
-  for (const CondensedPoint& point : problem_.points)
+  for (const CondensedPoint& point : contact_.problem.points)
     if (point.rows > 0)
-      problem_.begin[point.first_row] = -problem_.held[point.first_row] / (point.weight * point.law.penalty());
+      contact_.problem.begin[point.first_row] =
+          -contact_.problem.held[point.first_row] / (point.weight * point.law.penalty());
 }
 
 /// The largest that gaps are differences of.
 double MixedContact::displacement_of_surfaces(const Eigen::VectorXd& u) const {
   const Eigen::VectorXd magnitudes = tangent_.magnitudes(u);
   double largest = 0.0;
-  for (int row = 0; row < rows_.full().outerSize(); ++row)
-    for (RowMatrix::InnerIterator it(rows_.full(), row); it; ++it) largest = std::max(largest, magnitudes[it.col()]);
+  for (int row = 0; row < contact_.rows.full().outerSize(); ++row)
+    for (RowMatrix::InnerIterator it(contact_.rows.full(), row); it; ++it)
+      largest = std::max(largest, magnitudes[it.col()]);
   return largest;
 }
 
@@ -308,42 +398,42 @@ double MixedContact::displacement_of_surfaces(const Eigen::VectorXd& u) const {
 /// as a share of the largest; nothing where a compliance that is not exact finds no solution.
 std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset,
                                            Eigen::VectorXd& forces, Eigen::VectorXd& corrected) {
-  const Eigen::VectorXd u = elimination_.transformation() * corrected + offset;
-  const Eigen::VectorXd free = jumps(u);
-  problem_.displacement = displacement_of_surfaces(u);
+  const Eigen::VectorXd u = contact_.elimination.transformation() * corrected + offset;
+  const Eigen::VectorXd free = contact_.jumps(u);
+  contact_.problem.displacement = displacement_of_surfaces(u);
   check_blocked_points(free);
-  const Index point_rows = rows_.full().rows();
-  problem_.held = forces;
-  problem_.free.resize(schur_->size());
-  problem_.free.head(point_rows) = free;
+  const Index point_rows = contact_.rows.full().rows();
+  contact_.problem.held = forces;
+  contact_.problem.free.resize(compliance_.schur().size());
+  contact_.problem.free.head(point_rows) = free;
   for (std::size_t k = 0; k < tangent_.springs().size(); ++k) {
     const int unknown = tangent_.springs()[k].first;
-    problem_.free[point_rows + static_cast<Index>(k)] = corrected[unknown] - before[unknown];
+    contact_.problem.free[point_rows + static_cast<Index>(k)] = corrected[unknown] - before[unknown];
   }
   begin_near(before, offset);
-  problem_.indefinite = tangent_.is_indefinite();
-  problem_.farthest =
-      problem_.springs.empty() ? std::numeric_limits<double>::infinity() : farthest_motion * extent(mesh_);
-  if (!problem_.springs.empty() || problem_.indefinite) close_nearest(free);
+  contact_.problem.indefinite = tangent_.is_indefinite();
+  contact_.problem.farthest = contact_.problem.springs.empty() ? std::numeric_limits<double>::infinity()
+                                                               : farthest_motion * extent(contact_.mesh);
+  if (!contact_.problem.springs.empty() || contact_.problem.indefinite) close_nearest(free);
 
-  const CondensedState earlier = state_;
+  const CondensedState earlier = contact_.state;
   const CondensedSolution solution = solve_law();
   counters_.contact_iterations += solution.iterations;
-  problem_.expected.resize(0);
+  contact_.problem.expected.resize(0);
   rubs_by_shears_ = solution.by_shears;
   if (solution.verdict == CondensedVerdict::too_many_iterations) {
-    if (schur_->is_exact()) {
+    if (compliance_.schur().is_exact()) {
       const bool negative =
-          std::ranges::any_of(problem_.points, [](const CondensedPoint& point) { return point.weight < 0.0; });
-      throw_condensed_limit(problem_.max_iterations, definition_, negative, tangent_.unheld());
+          std::ranges::any_of(contact_.problem.points, [](const CondensedPoint& point) { return point.weight < 0.0; });
+      throw_condensed_limit(contact_.problem.max_iterations, contact_.definition, negative, tangent_.unheld());
     }
-    state_ = earlier;
+    contact_.state = earlier;
     return std::nullopt;
   }
   const Eigen::VectorXd change = solution.forces - forces;
   const double most = largest_component(change);
   if (most > 0.0) {
-    Eigen::MatrixXd push = schur_->rows().transpose() * change;
+    Eigen::MatrixXd push = compliance_.schur().rows().transpose() * change;
     tangent_.solve_correction(push, u);
     corrected += push;
   }
@@ -352,22 +442,49 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   return size > 0.0 ? most / size : most;
 }
 
+/// Between nodes the pressure of a penalty is that of the states of all points of the face, and these are by it: there
+/// may be none that go together. Gaps alone are closed or not. Whether any point has such a law.
+bool MixedContact::open_by_gaps() {
+  if (opens_by_gaps_ || has_points_on_nodes(contact_.problem) || !has_penalties()) return false;
+  opens_by_gaps_ = true;
+  apply_penalties();
+  return true;
+}
+
+/// With the augmentations given; where there is no solution, with softer ones.
+CondensedSolution MixedContact::solve_law() {
+  SchurComplement& schur = compliance_.schur();
+  if (is_rubbing()) return rubbing_.solve(schur);
+  const CondensedState earlier = contact_.state;
+  CondensedSolution solution = solve_condensed(schur, contact_.problem, contact_.state);
+  while (solution.verdict == CondensedVerdict::too_many_iterations && schur.is_exact() && augmentations_.lower()) {
+    contact_.state = earlier;
+    const int iterations = solution.iterations;
+    solution = solve_condensed(schur, contact_.problem, contact_.state);
+    solution.iterations += iterations;
+  }
+  if (solution.verdict == CondensedVerdict::too_many_iterations && schur.is_exact() && open_by_gaps()) {
+    contact_.state = earlier;
+    solution = solve_condensed(schur, contact_.problem, contact_.state);
+  }
+  return solution;
+}
+
 bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
-  const Eigen::VectorXd now = jumps(u);
-  const std::size_t zones = definition_.zones.size();
+  const Eigen::VectorXd now = contact_.jumps(u);
+  const std::size_t zones = contact_.definition.zones.size();
   Excess excess{std::vector<double>(zones, 0.0), std::vector<double>(zones, 0.0), std::vector<double>(zones, 1.0)};
   for (std::size_t p = 0; p < points().size(); ++p) {
     const auto zone = static_cast<std::size_t>(points()[p].zone);
-    const MixedZone& mixed = definition_.zones[zone].mixed;
-    const CondensedPoint& point = problem_.points[p];
-    if (point.rows == 0 || is_free_of_force(points()[p], problem_.points[p])) continue;
+    const MixedZone& mixed = contact_.definition.zones[zone].mixed;
+    const CondensedPoint& point = contact_.problem.points[p];
+    if (point.rows == 0 || contact_.is_free_of_force(p)) continue;
     const std::optional<double> deepest = penalties_.allowed_depth();
     const double given = std::min(mixed.penalised ? mixed.augmentation : mixed.friction_penalty,
                                   mixed.friction_penalised ? mixed.friction_penalty : mixed.augmentation);
-    excess.softness[zone] =
-        std::max(excess.softness[zone], (points()[p].node >= 0 ? stiffness_at(p) : resistance_at(p)) / given);
+    excess.softness[zone] = std::max(excess.softness[zone], augmentations_.stiffness(p) / given);
     if (mixed.penalised && deepest) excess.depth[zone] = std::max(excess.depth[zone], -now[point.first_row] / *deepest);
-    if (mixed.friction_penalised && mixed.largest_slip && state_.statuses[p] == ContactStatus::sticking)
+    if (mixed.friction_penalised && mixed.largest_slip && contact_.state.statuses[p] == ContactStatus::sticking)
       excess.slip[zone] = std::max(excess.slip[zone], slip_of(point, now) / *mixed.largest_slip);
   }
   if (!penalties_.raise(excess)) return false;
@@ -377,26 +494,27 @@ bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
 
 /// A depth that an event of the step limits stands for all others.
 bool MixedContact::adapts(std::size_t zone) const {
-  return definition_.zones[zone].mixed.adapts_penalty && !penalties_.allowed_depth();
+  return contact_.definition.zones[zone].mixed.adapts_penalty && !penalties_.allowed_depth();
 }
 
 bool MixedContact::adapt_penalties(const Eigen::VectorXd& u) {
   std::vector<char> zones;
-  for (std::size_t zone = 0; zone < definition_.zones.size(); ++zone) zones.push_back(adapts(zone) ? 1 : 0);
+  for (std::size_t zone = 0; zone < contact_.definition.zones.size(); ++zone) zones.push_back(adapts(zone) ? 1 : 0);
   if (std::ranges::find(zones, 1) == zones.end()) return false;
-  const Eigen::VectorXd now = jumps(u);
+  const Eigen::VectorXd now = contact_.jumps(u);
   const auto depths = [&](const Eigen::VectorXd& gaps) {
     std::vector<double> result(points().size(), -std::numeric_limits<double>::infinity());
     for (std::size_t p = 0; p < points().size(); ++p)
-      if (problem_.points[p].rows > 0 && !is_free_of_force(points()[p], problem_.points[p]))
-        result[p] = -gaps[problem_.points[p].first_row];
+      if (contact_.problem.points[p].rows > 0 && !contact_.is_free_of_force(p))
+        result[p] = -gaps[contact_.problem.points[p].first_row];
     return result;
   };
   const std::vector<double> present = depths(now);
   const bool is_deep = adapted_.is_too_deep(zones, present);
   // What contact alone holds would lie infinitely deep.
-  if (is_deep && !began_adapted() && tangent_.springs().empty()) adapted_.note_depths(depths(now - pushed_by(forces_)));
-  if (!adapted_.adapt(zones, present, is_deep ? tangent_.largest_term(u) : 0.0, !definition_.contact_by_newton))
+  if (is_deep && !began_adapted() && tangent_.springs().empty())
+    adapted_.note_depths(depths(now - compliance_.pushed_by(contact_.forces)));
+  if (!adapted_.adapt(zones, present, is_deep ? tangent_.largest_term(u) : 0.0, !contact_.definition.contact_by_newton))
     return false;
   apply_penalties();
   return true;
@@ -405,73 +523,48 @@ bool MixedContact::adapt_penalties(const Eigen::VectorXd& u) {
 void MixedContact::apply_penalties() {
   for (std::size_t p = 0; p < points().size(); ++p) {
     const auto zone = static_cast<std::size_t>(points()[p].zone);
-    penalties_.apply(definition_.zones[zone].mixed, points()[p].zone, problem_.points[p]);
-    if (adapts(zone)) problem_.points[p].law.augmentation = adapted_.penalty(p);
-    problem_.points[p].law.opens_by_gap = opens_by_gaps_;
+    penalties_.apply(contact_.definition.zones[zone].mixed, points()[p].zone, contact_.problem.points[p]);
+    if (adapts(zone)) contact_.problem.points[p].law.augmentation = adapted_.penalty(p);
+    contact_.problem.points[p].law.opens_by_gap = opens_by_gaps_;
   }
 }
 
 bool MixedContact::has_penalties() const {
-  return std::ranges::any_of(definition_.zones, [](const ContactZone& zone) { return zone.mixed.penalised; });
-}
-
-std::vector<char> MixedContact::closed_points() const {
-  std::vector<char> closed;
-  for (const ContactStatus status : state_.statuses) closed.push_back(status != ContactStatus::open);
-  return closed;
-}
-
-int MixedContact::closed_count() const {
-  return static_cast<int>(
-      std::ranges::count_if(state_.statuses, [](ContactStatus each) { return each != ContactStatus::open; }));
+  return std::ranges::any_of(contact_.definition.zones, [](const ContactZone& zone) { return zone.mixed.penalised; });
 }
 
 double MixedContact::penetration(const Eigen::VectorXd& u, bool of_penalties) const {
-  const Eigen::VectorXd now = jumps(u);
+  const Eigen::VectorXd now = contact_.jumps(u);
   double deepest = 0.0;
   for (std::size_t p = 0; p < points().size(); ++p)
-    if (problem_.points[p].rows > 0 && !is_free_of_force(points()[p], problem_.points[p]) &&
-        (problem_.points[p].law.penalised || !of_penalties))
-      deepest = std::max(deepest, -now[problem_.points[p].first_row]);
+    if (contact_.problem.points[p].rows > 0 && !contact_.is_free_of_force(p) &&
+        (contact_.problem.points[p].law.penalised || !of_penalties))
+      deepest = std::max(deepest, -now[contact_.problem.points[p].first_row]);
   return deepest;
 }
 
-SolvedContact MixedContact::solved(const Eigen::VectorXd& u) const {
-  return {definition_, mesh_, dofs_, rows_, problem_, state_, forces_, u, jumps(u)};
-}
-
 void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) {
-  const ContactResponse response{[this](const Eigen::VectorXd& forces) { return pushed_by(forces); },
+  const ContactResponse response{[this](const Eigen::VectorXd& forces) { return compliance_.pushed_by(forces); },
                                  [this, &u] { return pushed_back(u); },
                                  penalties_,
                                  rubs_by_shears_,
-                                 augmentation_share_ < 1.0,
+                                 augmentations_.are_lowered(),
                                  opens_by_gaps_};
   comma::solver::note_doubts(solved(u), response, doubts);
   for (const ContactDoubt& doubt : bridged_) doubts.note(doubt);
-  note_coarse_friction(doubts);
+  if (is_rubbing()) rubbing_.note_doubts(doubts);
 }
 
 void MixedContact::note_loose_bodies(const Eigen::VectorXd& u, ContactDoubts& doubts) const {
-  if (tangent_.springs().empty() || rows_.reduced().rows() == 0) return;
+  if (tangent_.springs().empty() || contact_.rows.reduced().rows() == 0) return;
   const RowMatrix held = closed_rows(solved(u));
   doubts.note_loose(tangent_.unheld_beside(held));
 }
 
 std::vector<double> MixedContact::pushed_back(const Eigen::VectorXd& u) {
-  if (!schur_) return std::vector<double>(definition_.zones.size(), 0.0);
-  return comma::solver::pushed_back(solved(u), [this](const Eigen::VectorXd& forces) { return pushed_by(forces); });
-}
-
-Eigen::VectorXd MixedContact::pushed_by(const Eigen::VectorXd& contact_forces) {
-  if (!schur_) {
-    Eigen::MatrixXd push = rows_.reduced().transpose() * contact_forces;
-    tangent_.solve_once(push);
-    return rows_.reduced() * push;
-  }
-  Eigen::VectorXd forces = Eigen::VectorXd::Zero(schur_->size());
-  forces.head(contact_forces.size()) = contact_forces;
-  return schur_->times(forces).head(contact_forces.size());
+  if (!compliance_.is_known()) return std::vector<double>(contact_.definition.zones.size(), 0.0);
+  return comma::solver::pushed_back(solved(u),
+                                    [this](const Eigen::VectorXd& forces) { return compliance_.pushed_by(forces); });
 }
 
 }  // namespace comma::solver

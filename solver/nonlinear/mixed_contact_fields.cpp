@@ -47,30 +47,31 @@ void add_contact(const NodeContact& contact, NodeContact& sum) {
 double share_of_limit(const SolvedContact& contact, const CondensedPoint& point, double slip, double limit) {
   if (!point.law.friction_penalised) return 1.0;
   const double brought = point.law.friction_augmentation * slip;
-  return std::min(
-      1.0, contact.definition.formulation == ContactFormulation::mixed ? brought : point.weight * brought / limit);
+  return std::min(1.0, contact.faced.definition.formulation == ContactFormulation::mixed
+                           ? brought
+                           : point.weight * brought / limit);
 }
 
 /// Where conditions prescribe how a point slides the law leaves friction out, and it is what Coulomb's law says against
 /// that slip, as far as there is friction along it.
 Eigen::VectorXd shear_rows(const SolvedContact& contact, std::size_t p) {
-  const CondensedPoint& point = contact.problem.points[p];
-  if (!(point.idle_friction > 0.0)) return contact.forces.segment(point.first_row + 1, point.rows - 1);
+  const CondensedPoint& point = contact.faced.problem.points[p];
+  if (!(point.idle_friction > 0.0)) return contact.faced.forces.segment(point.first_row + 1, point.rows - 1);
   Vector3d jump = Vector3d::Zero();
   jump.head(point.rows) = contact.jumps.segment(point.first_row, point.rows);
   const Eigen::VectorXd slip = live_part(point.law, jump).segment(1, point.rows - 1);
   const double size = slip.norm();
-  const double limit = point.idle_friction * contact.forces[point.first_row];
-  if (!(size > least_prescribed_slip * contact.problem.displacement) || !(limit > 0.0))
+  const double limit = point.idle_friction * contact.faced.forces[point.first_row];
+  if (!(size > least_prescribed_slip * contact.faced.problem.displacement) || !(limit > 0.0))
     return Eigen::VectorXd::Zero(point.rows - 1);
   return -limit * share_of_limit(contact, point, size, limit) / size * slip;
 }
 
 Vector3d shear_force(const SolvedContact& contact, std::size_t p) {
   Vector3d force = Vector3d::Zero();
-  if (contact.problem.points[p].rows < 2) return force;
+  if (contact.faced.problem.points[p].rows < 2) return force;
   const Eigen::VectorXd rows = shear_rows(contact, p);
-  const ContactRows::Directions along = contact.rows.directions(contact.points()[p]);
+  const ContactRows::Directions along = contact.faced.rows.directions(contact.faced.points()[p]);
   for (Eigen::Index c = 0; c < rows.size(); ++c) force += rows[c] * along[static_cast<std::size_t>(c + 1)];
   return force;
 }
@@ -79,30 +80,30 @@ Vector3d shear_force(const SolvedContact& contact, std::size_t p) {
 /// parabola about the axis, a + b r^2, through the other two nodes. With a penalty nothing keeps the node from a little
 /// gap between two that are pressed. On faces of two nodes it is that of the penalty (Code_Aster 17.3).
 void show_pressures_on_axis(const SolvedContact& contact, const std::function<double*(int)>& place) {
-  for (std::size_t p = 0; p < contact.points().size(); ++p) {
-    const ContactPoint& point = contact.points()[p];
-    const auto nodes = contact.mesh.cell(point.cell);
+  for (std::size_t p = 0; p < contact.faced.points().size(); ++p) {
+    const ContactPoint& point = contact.faced.points()[p];
+    const auto nodes = contact.faced.mesh.cell(point.cell);
     if (!point.bears_nothing || nodes.size() < 3) continue;
     const double at_middle = place(nodes[2])[0], at_end = place(nodes[0] == point.node ? nodes[1] : nodes[0])[0];
-    const bool closed = contact.is_closed(p) || (contact.is_free_of_force(p) && at_end < 0.0);
+    const bool closed = contact.faced.is_closed(p) || (contact.faced.is_free_of_force(p) && at_end < 0.0);
     if (closed && at_middle < 0.0)
       place(point.node)[0] = (4.0 * at_middle - at_end) / 3.0;
-    else if (contact.is_free_of_force(p))
+    else if (contact.faced.is_free_of_force(p))
       place(point.node)[0] = 0.0;
   }
 }
 
 /// Shares of the limit where conditions prescribe how points slide.
 void add_idle_multipliers(const SolvedContact& contact, const std::function<double*(int)>& place) {
-  if (std::ranges::none_of(contact.problem.points,
+  if (std::ranges::none_of(contact.faced.problem.points,
                            [](const CondensedPoint& point) { return point.idle_friction > 0.0; }))
     return;
-  for (std::size_t p = 0; p < contact.points().size(); ++p) {
-    const CondensedPoint& point = contact.problem.points[p];
-    const double limit = point.idle_friction * (point.rows > 0 ? contact.forces[point.first_row] : 0.0);
-    if (contact.points()[p].node < 0 || !(limit > 0.0)) continue;
+  for (std::size_t p = 0; p < contact.faced.points().size(); ++p) {
+    const CondensedPoint& point = contact.faced.problem.points[p];
+    const double limit = point.idle_friction * (point.rows > 0 ? contact.faced.forces[point.first_row] : 0.0);
+    if (contact.faced.points()[p].node < 0 || !(limit > 0.0)) continue;
     const Eigen::VectorXd shear = shear_rows(contact, p);
-    for (Eigen::Index c = 0; c < shear.size(); ++c) place(contact.points()[p].node)[c + 1] += shear[c] / limit;
+    for (Eigen::Index c = 0; c < shear.size(); ++c) place(contact.faced.points()[p].node)[c + 1] += shear[c] / limit;
   }
 }
 
@@ -117,29 +118,29 @@ Vector3d place_on_facet(const Mesh& mesh, const ContactPair& pair, Positions pos
 
 /// Nodes of SANS_GROUP_NO_FR count as sticking whatever they do.
 bool is_left_to_creep(const SolvedContact& contact, const ContactPoint& point) {
-  const MixedZone& zone = contact.definition.zones[static_cast<std::size_t>(point.zone)].mixed;
-  return zone.rule == ContactRule::automatic && contact.rows.leaves_out_all_directions(zone) &&
+  const MixedZone& zone = contact.faced.definition.zones[static_cast<std::size_t>(point.zone)].mixed;
+  return zone.rule == ContactRule::automatic && contact.faced.rows.leaves_out_all_directions(zone) &&
          std::ranges::find(zone.frictionless_nodes, point.node) != zone.frictionless_nodes.end();
 }
 
 /// `shares`: the multipliers as they are shown.
 bool is_sticking(const SolvedContact& contact, std::size_t p, const Eigen::VectorXd& shares) {
-  const ContactPoint& point = contact.points()[p];
-  const CondensedPoint& condensed = contact.problem.points[p];
-  if (contact.definition.formulation == ContactFormulation::discrete || condensed.components < 2 ||
+  const ContactPoint& point = contact.faced.points()[p];
+  const CondensedPoint& condensed = contact.faced.problem.points[p];
+  if (contact.faced.definition.formulation == ContactFormulation::discrete || condensed.components < 2 ||
       condensed.idle_friction > 0.0)
-    return contact.state.statuses[p] == ContactStatus::sticking;
-  const auto number = contact.rows.multiplier_numbers().find(Key(point.zone, point.stands_for));
-  const int components = contact.problem.components;
-  return number != contact.rows.multiplier_numbers().end() &&
+    return contact.faced.state.statuses[p] == ContactStatus::sticking;
+  const auto number = contact.faced.rows.multiplier_numbers().find(Key(point.zone, point.stands_for));
+  const int components = contact.faced.problem.components;
+  return number != contact.faced.rows.multiplier_numbers().end() &&
          shares.segment(number->second * components + 1, components - 1).norm() < sliding_share;
 }
 
 /// Of a point that stands for a node. One that does not lie on it leaves the forces to add_forces_between_nodes().
 NodeContact node_contact(const SolvedContact& contact, Positions positions, std::size_t p,
                          const Eigen::VectorXd& shares) {
-  const ContactPoint& point = contact.points()[p];
-  const CondensedPoint& condensed = contact.problem.points[p];
+  const ContactPoint& point = contact.faced.points()[p];
+  const CondensedPoint& condensed = contact.faced.problem.points[p];
   NodeContact node;
   node.pair = {.zone = point.zone,
                .slave = point.stands_for,
@@ -151,17 +152,17 @@ NodeContact node_contact(const SolvedContact& contact, Positions positions, std:
                .thickness = point.thickness};
   if (condensed.first_row >= 0) {
     node.gap = contact.jumps[condensed.first_row];
-    if (point.node >= 0) node.normal_force = contact.forces[condensed.first_row];
-    node.closed = point.status == PairingStatus::paired && contact.is_closed(p);
+    if (point.node >= 0) node.normal_force = contact.faced.forces[condensed.first_row];
+    node.closed = point.status == PairingStatus::paired && contact.faced.is_closed(p);
     node.sticking = node.closed && (is_sticking(contact, p, shares) || is_left_to_creep(contact, point));
   }
-  const bool is_discrete = contact.definition.formulation == ContactFormulation::discrete;
+  const bool is_discrete = contact.faced.definition.formulation == ContactFormulation::discrete;
   node.has_foot = is_discrete ? node.closed : node.pair.facet >= 0;
-  if (!is_discrete && node.has_foot) node.pair.foot = place_on_facet(contact.mesh, node.pair, positions);
-  if (!is_discrete && point.beside >= 0 && point.node >= 0) node.gap = gap_at(node.pair, contact.mesh, positions);
+  if (!is_discrete && node.has_foot) node.pair.foot = place_on_facet(contact.faced.mesh, node.pair, positions);
+  if (!is_discrete && point.beside >= 0 && point.node >= 0) node.gap = gap_at(node.pair, contact.faced.mesh, positions);
   if (point.node >= 0) node.shear_force = shear_force(contact, p);
   for (int c = 1; c < condensed.rows; ++c)
-    node.slip[c - 1] = contact.is_closed(p) ? contact.jumps[condensed.first_row + c] : 0.0;
+    node.slip[c - 1] = contact.faced.is_closed(p) ? contact.jumps[condensed.first_row + c] : 0.0;
   return node;
 }
 
@@ -180,15 +181,15 @@ void add_forces_between_nodes(const SolvedContact& contact, std::map<Key, std::s
                               std::vector<NodeContact>& contacts) {
   std::set<int> zones_with_nodes;
   for (const auto& [key, _] : by_node) zones_with_nodes.insert(key.first);
-  for (std::size_t p = 0; p < contact.points().size(); ++p) {
-    const ContactPoint& point = contact.points()[p];
-    if (point.node >= 0 || point.area > 0.0 || contact.problem.points[p].first_row < 0 ||
+  for (std::size_t p = 0; p < contact.faced.points().size(); ++p) {
+    const ContactPoint& point = contact.faced.points()[p];
+    if (point.node >= 0 || point.area > 0.0 || contact.faced.problem.points[p].first_row < 0 ||
         !zones_with_nodes.contains(point.zone))
       continue;
-    const Vector3d normal = contact.forces[contact.problem.points[p].first_row] * point.normal,
+    const Vector3d normal = contact.faced.forces[contact.faced.problem.points[p].first_row] * point.normal,
                    shear = shear_force(contact, p);
-    const auto nodes = contact.mesh.cell(point.cell);
-    const bool sticks = contact.state.statuses[p] == ContactStatus::sticking;
+    const auto nodes = contact.faced.mesh.cell(point.cell);
+    const bool sticks = contact.faced.state.statuses[p] == ContactStatus::sticking;
     for (std::size_t a = 0; a < nodes.size(); ++a) {
       const auto [known, is_first] = by_node.emplace(Key(point.zone, nodes[a]), contacts.size());
       if (is_first)
@@ -197,7 +198,7 @@ void add_forces_between_nodes(const SolvedContact& contact, std::map<Key, std::s
              .sticking = true,
              .has_point = false});
       NodeContact& node = contacts[known->second];
-      if (!node.has_point) node.sticking &= sticks || !contact.is_closed(p);
+      if (!node.has_point) node.sticking &= sticks || !contact.faced.is_closed(p);
       add_forces(point.shape[a] * normal, point.shape[a] * shear, node);
     }
   }
@@ -207,23 +208,23 @@ void add_forces_between_nodes(const SolvedContact& contact, std::map<Key, std::s
 /// unless another zone holds them (Code_Aster 17.3).
 void add_watched_nodes(const SolvedContact& contact, Positions positions, double instant,
                        std::vector<NodeContact>& contacts) {
-  const bool mixed = contact.definition.formulation == ContactFormulation::mixed;
+  const bool mixed = contact.faced.definition.formulation == ContactFormulation::mixed;
   std::set<int> known;
   for (const NodeContact& each : contacts) known.insert(each.pair.slave);
-  for (auto [index, pair] : watched_pairs(contact.definition, contact.mesh, positions, instant)) {
+  for (auto [index, pair] : watched_pairs(contact.faced.definition, contact.faced.mesh, positions, instant)) {
     if (mixed && known.contains(pair.slave)) continue;
     if (mixed) pair.status = PairingStatus::paired;
-    contacts.push_back({.pair = pair, .gap = gap_at(pair, contact.mesh, positions), .has_foot = !mixed});
+    contacts.push_back({.pair = pair, .gap = gap_at(pair, contact.faced.mesh, positions), .has_foot = !mixed});
   }
 }
 
 /// Those that the user leaves out.
 void add_excluded_nodes(const SolvedContact& contact, std::vector<NodeContact>& contacts) {
-  for (std::size_t zone = 0; zone < contact.definition.zones.size(); ++zone) {
-    const ContactZone& each = contact.definition.zones[zone];
+  for (std::size_t zone = 0; zone < contact.faced.definition.zones.size(); ++zone) {
+    const ContactZone& each = contact.faced.definition.zones[zone];
     const std::set<int> excluded(each.excluded_slave_nodes.begin(), each.excluded_slave_nodes.end());
     if (excluded.empty()) continue;
-    for (const int node : contact.mesh.nodes_of_cells(each.slave_cells))
+    for (const int node : contact.faced.mesh.nodes_of_cells(each.slave_cells))
       if (excluded.contains(node))
         contacts.push_back({.pair = {.zone = static_cast<int>(zone), .slave = node, .status = PairingStatus::excluded},
                             .has_foot = false});
@@ -233,9 +234,10 @@ void add_excluded_nodes(const SolvedContact& contact, std::vector<NodeContact>& 
 }  // namespace
 
 void add_multipliers(const SolvedContact& contact, NodalField& displacements) {
-  if (contact.definition.formulation == ContactFormulation::discrete) return;
+  if (contact.faced.definition.formulation == ContactFormulation::discrete) return;
   constexpr std::array<const char*, 3> names = {"LAGS_C", "LAGS_F1", "LAGS_F2"};
-  const int added_components = contact.definition.has_friction ? contact.rows.dimension() : contact.problem.components;
+  const int added_components =
+      contact.faced.definition.has_friction ? contact.faced.rows.dimension() : contact.faced.problem.components;
   const auto added = static_cast<std::size_t>(added_components);
   const std::size_t before = displacements.components.size();
   const std::size_t all = before + added;
@@ -246,14 +248,14 @@ void add_multipliers(const SolvedContact& contact, NodalField& displacements) {
                 values.begin() + static_cast<std::ptrdiff_t>(node * all));
   displacements.components.insert(displacements.components.end(), names.begin(), names.begin() + added_components);
   const auto place = [&](int node) { return values.data() + static_cast<std::size_t>(node) * all + before; };
-  for (const ContactZone& zone : contact.definition.zones) {
+  for (const ContactZone& zone : contact.faced.definition.zones) {
     if (zone.mixed.local_average) continue;
-    for (const int node : contact.mesh.nodes_of_cells(zone.slave_cells)) std::fill_n(place(node), added, 0.0);
+    for (const int node : contact.faced.mesh.nodes_of_cells(zone.slave_cells)) std::fill_n(place(node), added, 0.0);
   }
-  for (const auto& [key, number] : contact.rows.multiplier_numbers()) std::fill_n(place(key.second), added, 0.0);
-  const int components = contact.problem.components;
-  const Eigen::VectorXd shown = contact.rows.with_shares(contact.state.multipliers, components);
-  for (const auto& [key, number] : contact.rows.multiplier_numbers()) {
+  for (const auto& [key, number] : contact.faced.rows.multiplier_numbers()) std::fill_n(place(key.second), added, 0.0);
+  const int components = contact.faced.problem.components;
+  const Eigen::VectorXd shown = contact.faced.rows.with_shares(contact.faced.state.multipliers, components);
+  for (const auto& [key, number] : contact.faced.rows.multiplier_numbers()) {
     place(key.second)[0] -= shown[number * components];
     for (int c = 1; c < components; ++c) place(key.second)[c] += shown[number * components + c];
   }
@@ -266,9 +268,10 @@ std::optional<NodalField> contact_state(const SolvedContact& contact, Positions 
                                         double instant, double duration) {
   std::vector<NodeContact> contacts;
   std::map<Key, std::size_t> by_node;
-  const Eigen::VectorXd shares = contact.rows.with_shares(contact.state.multipliers, contact.problem.components);
-  for (std::size_t p = 0; p < contact.points().size(); ++p) {
-    const ContactPoint& point = contact.points()[p];
+  const Eigen::VectorXd shares =
+      contact.faced.rows.with_shares(contact.faced.state.multipliers, contact.faced.problem.components);
+  for (std::size_t p = 0; p < contact.faced.points().size(); ++p) {
+    const ContactPoint& point = contact.faced.points()[p];
     if (point.stands_for < 0 || point.area > 0.0 || point.status == PairingStatus::watched) continue;
     const NodeContact node = node_contact(contact, positions, p, shares);
     const auto [known, is_first] = by_node.emplace(Key(point.zone, point.stands_for), contacts.size());
@@ -289,35 +292,36 @@ std::optional<NodalField> contact_state(const SolvedContact& contact, Positions 
       node.normal_force = 0.0;
       node.shear_force.setZero();
     }
-  const bool is_discrete = contact.definition.formulation == ContactFormulation::discrete;
+  const bool is_discrete = contact.faced.definition.formulation == ContactFormulation::discrete;
   add_watched_nodes(contact, is_discrete ? paired_at : positions, instant, contacts);
   add_excluded_nodes(contact, contacts);
   if (contacts.empty()) return std::nullopt;
-  return contact_field(contacts, contact.mesh.node_count(), positions, duration,
+  return contact_field(contacts, contact.faced.mesh.node_count(), positions, duration,
                        is_discrete ? Unpaired::open : Unpaired::apart);
 }
 
 std::optional<ElementField> patch_state(const SolvedContact& contact) {
-  if (std::ranges::none_of(contact.definition.zones, [](const ContactZone& zone) { return zone.mixed.local_average; }))
+  if (std::ranges::none_of(contact.faced.definition.zones,
+                           [](const ContactZone& zone) { return zone.mixed.local_average; }))
     return std::nullopt;
   std::map<int, PatchContact> by_node;  // a node inside tells the patch
-  for (std::size_t p = 0; p < contact.points().size(); ++p) {
-    const ContactPoint& point = contact.points()[p];
+  for (std::size_t p = 0; p < contact.faced.points().size(); ++p) {
+    const ContactPoint& point = contact.faced.points()[p];
     if (!(point.area > 0.0)) continue;
     PatchContact& patch = by_node[point.node];
     patch.covered = point.weight / point.area;
-    const CondensedPoint& condensed = contact.problem.points[p];
+    const CondensedPoint& condensed = contact.faced.problem.points[p];
     if (condensed.first_row >= 0) patch.gap = contact.jumps[condensed.first_row];
-    if (condensed.rows == 0 || !contact.is_closed(p)) continue;
+    if (condensed.rows == 0 || !contact.faced.is_closed(p)) continue;
     patch.is_closed = true;
-    patch.pressure = multiplier_at(contact.problem, contact.state, condensed)[0];
+    patch.pressure = multiplier_at(contact.faced.problem, contact.faced.state, condensed)[0];
   }
   std::vector<std::pair<std::vector<int>, PatchContact>> patches;
-  for (const auto& faces : contact.mesh.slave_patches) {
-    const auto known = by_node.find(inner_nodes(contact.mesh, faces).front());
+  for (const auto& faces : contact.faced.mesh.slave_patches) {
+    const auto known = by_node.find(inner_nodes(contact.faced.mesh, faces).front());
     if (known != by_node.end()) patches.emplace_back(faces, known->second);
   }
-  return patch_field(patches, contact.mesh.cell_count());
+  return patch_field(patches, contact.faced.mesh.cell_count());
 }
 
 }  // namespace comma::solver

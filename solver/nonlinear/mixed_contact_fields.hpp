@@ -5,7 +5,7 @@
 
 #include "solver/contact/contact_field.hpp"
 #include "solver/fields/field.hpp"
-#include "solver/nonlinear/solved_contact.hpp"
+#include "solver/nonlinear/faced_contact.hpp"
 
 namespace comma::solver {
 

@@ -1,10 +1,9 @@
-// The part of MixedContact that goes by fixed points on contact while friction follows by Newton's method: what
-// Code_Aster 17.3 does, iteration by iteration, so that figures of a criterion that is loose are the same.
+#include "solver/nonlinear/rubbing_iterations.hpp"
+
 #include <algorithm>
 #include <utility>
 
 #include "solver/linear/largest_component.hpp"
-#include "solver/nonlinear/mixed_contact.hpp"
 
 namespace comma::solver {
 namespace {
@@ -20,64 +19,73 @@ constexpr double coarse_friction = 1e-2;
 
 }  // namespace
 
-bool MixedContact::rubs_loosely() const {
-  if (!(definition_.friction_tolerance > tight_friction)) return false;
-  return std::ranges::all_of(definition_.zones, [](const ContactZone& zone) {
+bool RubbingIterations::suit(const ContactDefinition& definition) {
+  if (!(definition.friction_tolerance > tight_friction)) return false;
+  return std::ranges::all_of(definition.zones, [](const ContactZone& zone) {
     const MixedZone& mixed = zone.mixed;
     return !zone.resolved || !(mixed.local_average || mixed.penalised || mixed.friction_penalised || mixed.bilateral);
   });
 }
 
-ContactLaw MixedContact::law_by_shares(std::size_t p, double pressure) const {
-  ContactLaw law = problem_.points[p].law;
+void RubbingIterations::forget() {
+  last_.resize(0);
+  solved_.resize(0);
+  change_ = 0.0;
+}
+
+ContactLaw RubbingIterations::law_by_shares(std::size_t p, double pressure) const {
+  ContactLaw law = contact_.problem.points[p].law;
   if (!(law.friction > 0.0)) return law;
-  const double by_slip = definition_.zones[static_cast<std::size_t>(points()[p].zone)].mixed.friction_augmentation;
+  const double by_slip = contact_.mixed_zone_of(p).friction_augmentation;
   law.weighs_any_pressure = true;
   law.share_pressure = pressure;
   law.friction_augmentation = by_slip * law.friction * pressure;
   return law;
 }
 
-void MixedContact::begin_again() {
-  rows_.visit_shears(problem_.components, [this](Index, Index shear, double) { state_.multipliers[shear] = 0.0; });
-  rubbing_.last.resize(0);
-  linearise_friction(reference_);
+void RubbingIterations::begin_again() {
+  contact_.rows.visit_shears(contact_.problem.components,
+                             [this](Index, Index shear, double) { contact_.state.multipliers[shear] = 0.0; });
+  last_.resize(0);
+  linearise(contact_.reference);
 }
 
 /// Shears are taken as they are at the largest pressure: shares of the limit that are as large as pressures are.
-CondensedSolution MixedContact::step_by_shares() {
-  const double largest = largest_component(state_.multipliers), unit = largest > 0.0 ? largest : 1.0;
-  CondensedProblem problem = problem_;
-  for (std::size_t p = 0; p < points().size(); ++p) problem.points[p].law = law_by_shares(p, unit);
-  CondensedState state = state_;
-  rows_.visit_shears(problem_.components, [&](Index pressure, Index shear, double) {
-    const double present = state.multipliers[pressure];
-    state.multipliers[shear] *= present != 0.0 ? unit / present : 0.0;
+CondensedSolution RubbingIterations::solve(SchurComplement& schur) {
+  CondensedState& present = contact_.state;
+  const double largest = largest_component(present.multipliers), unit = largest > 0.0 ? largest : 1.0;
+  CondensedProblem problem = contact_.problem;
+  for (std::size_t p = 0; p < problem.points.size(); ++p) problem.points[p].law = law_by_shares(p, unit);
+  CondensedState state = present;
+  contact_.rows.visit_shears(problem.components, [&](Index pressure, Index shear, double) {
+    const double weight = state.multipliers[pressure];
+    state.multipliers[shear] *= weight != 0.0 ? unit / weight : 0.0;
   });
-  const CondensedSolution solution = solve_condensed(*schur_, problem, state);
-  rows_.visit_shears(problem_.components, [&](Index pressure, Index shear, double) {
+  const CondensedSolution solution = solve_condensed(schur, problem, state);
+  contact_.rows.visit_shears(problem.components, [&](Index pressure, Index shear, double) {
     state.multipliers[shear] *= state.multipliers[pressure] / unit;
   });
-  state_.multipliers = std::move(state.multipliers);
+  present.multipliers = std::move(state.multipliers);
   return solution;
 }
 
-int MixedContact::linearise_friction(const VectorXd& u) {
-  const VectorXd now = jumps(u);
-  const CondensedState by_shares{rows_.with_shares(state_.multipliers, problem_.components), {}};
-  forces_.setZero(rows_.full().rows());
+int RubbingIterations::linearise(const VectorXd& u) {
+  const CondensedProblem& problem = contact_.problem;
+  const VectorXd now = contact_.jumps(u);
+  const CondensedState by_shares{contact_.rows.with_shares(contact_.state.multipliers, problem.components), {}};
+  contact_.forces.setZero(contact_.rows.full().rows());
   int changes = 0;
-  for (std::size_t p = 0; p < points().size(); ++p) {
-    const CondensedPoint& point = problem_.points[p];
-    if (point.rows == 0 || state_.statuses[p] == ContactStatus::open) continue;
+  for (std::size_t p = 0; p < problem.points.size(); ++p) {
+    const CondensedPoint& point = problem.points[p];
+    if (point.rows == 0 || !contact_.is_closed(p)) continue;
     const ContactLaw law = law_by_shares(p, 1.0);
-    Vector3d multiplier = multiplier_at(problem_, by_shares, point);
+    Vector3d multiplier = multiplier_at(problem, by_shares, point);
     multiplier.tail<2>() *= law.friction;
     const Vector3d jump = at_point(point, now);
     const ContactStatus status = contact_status(law, true, multiplier, jump);
-    changes += status != state_.statuses[p];
-    state_.statuses[p] = status;
-    forces_.segment(point.first_row, point.rows) =
+    changes += status != contact_.state.statuses[p];
+    contact_.state.statuses[p] = status;
+    contact_.forces.segment(point.first_row, point.rows) =
         point.weight * contact_law(law, status, multiplier, jump).traction.head(point.rows);
   }
   note_friction(u, by_shares.multipliers);
@@ -85,34 +93,35 @@ int MixedContact::linearise_friction(const VectorXd& u) {
 }
 
 /// Displacements and multipliers are measured alike, whatever their units.
-void MixedContact::note_friction(const VectorXd& u, const VectorXd& shares) {
+void RubbingIterations::note_friction(const VectorXd& u, const VectorXd& shares) {
   VectorXd unknowns(u.size() + shares.size());
-  unknowns << u - reference_, shares;
-  if (rubbing_.last.size() == 0) rubbing_.last = VectorXd::Zero(unknowns.size());
+  unknowns << u - contact_.reference, shares;
+  if (last_.size() == 0) last_ = VectorXd::Zero(unknowns.size());
   const double size = largest_component(unknowns);
-  rubbing_.change = size > 0.0 ? largest_component(unknowns - rubbing_.last) / size : 0.0;
-  rubbing_.last = std::move(unknowns);
+  change_ = size > 0.0 ? largest_component(unknowns - last_) / size : 0.0;
+  last_ = std::move(unknowns);
 }
 
-void MixedContact::note_coarse_friction(ContactDoubts& doubts) const {
-  if (!is_rubbing() || rubbing_.change <= coarse_friction) return;
-  for (std::size_t p = 0; p < points().size(); ++p)
-    if (state_.statuses[p] != ContactStatus::open && problem_.points[p].law.friction > 0.0)
+void RubbingIterations::note_doubts(ContactDoubts& doubts) const {
+  if (change_ <= coarse_friction) return;
+  for (std::size_t p = 0; p < contact_.points().size(); ++p)
+    if (contact_.is_closed(p) && contact_.problem.points[p].law.friction > 0.0)
       doubts.note({.kind = DoubtKind::coarse_friction,
-                   .zone = points()[p].zone,
-                   .share = rubbing_.change,
-                   .penalty = definition_.friction_tolerance});
+                   .zone = contact_.points()[p].zone,
+                   .share = change_,
+                   .penalty = contact_.definition.friction_tolerance});
 }
 
-int MixedContact::change_points(const VectorXd& u) {
-  const VectorXd now = jumps(u);
+int RubbingIterations::change_points(const VectorXd& u) {
+  const VectorXd now = contact_.jumps(u);
   int changes = 0;
-  for (std::size_t p = 0; p < points().size(); ++p) {
-    const CondensedPoint& point = problem_.points[p];
+  for (std::size_t p = 0; p < contact_.points().size(); ++p) {
+    const CondensedPoint& point = contact_.problem.points[p];
     if (point.rows == 0) continue;
-    const bool closes = closing_pressure(point.law, multiplier_at(problem_, state_, point), at_point(point, now)) > 0.0;
-    if (closes == (state_.statuses[p] != ContactStatus::open)) continue;
-    state_.statuses[p] = closes ? ContactStatus::sticking : ContactStatus::open;
+    const Vector3d multiplier = multiplier_at(contact_.problem, contact_.state, point);
+    const bool closes = closing_pressure(point.law, multiplier, at_point(point, now)) > 0.0;
+    if (closes == contact_.is_closed(p)) continue;
+    contact_.state.statuses[p] = closes ? ContactStatus::sticking : ContactStatus::open;
     ++changes;
   }
   return changes;
