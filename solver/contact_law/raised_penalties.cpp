@@ -25,18 +25,17 @@ struct Wording {
   const char* hint;
 };
 
-/// `most`: the largest factor of a zone.
-template <class Most>
+/// `most`: the largest factor of each zone.
 bool raise_factors(std::vector<double>& factors, const std::vector<double>& excess, double (*growth)(double),
-                   const Most& most, const Wording& wording) {
+                   const std::vector<double>& most, const Wording& wording) {
   bool raised = false;
   for (std::size_t zone = 0; zone < excess.size(); ++zone) {
     if (excess[zone] <= 1.0) continue;
     factors[zone] *= growth(excess[zone]);
-    if (factors[zone] > most(zone))
+    if (factors[zone] > most[zone])
       throw Error("no-convergence",
                   fmt::format("a {} {:.2g} times the one given does not keep {} than allowed", wording.penalty,
-                              most(zone), wording.what),
+                              most[zone], wording.what),
                   wording.hint);
     raised = true;
   }
@@ -51,13 +50,14 @@ void RaisedPenalties::limit_depth(double depth, double most) {
 }
 
 bool RaisedPenalties::raise(const Excess& excess) {
-  const auto most = [&](std::size_t zone) {
-    return most_.value_or(most_beside_bodies * (excess.softness.empty() ? 1.0 : std::max(1.0, excess.softness[zone])));
+  const auto most = [this](std::vector<double> softness) {
+    for (double& each : softness) each = most_.value_or(most_beside_bodies * each);
+    return softness;
   };
   const bool pressed = raise_factors(
-      contact_, excess.depth, doubling, most,
+      contact_, excess.depth, doubling, most(excess.soft_contact),
       {"contact penalty", "points from going deeper", "allow more depth (PENE_MAXI), or take ALGO_CONT='STANDARD'"});
-  const bool rubbed = raise_factors(friction_, excess.slip, growth_with, most,
+  const bool rubbed = raise_factors(friction_, excess.slip, growth_with, most(excess.soft_friction),
                                     {"penalty of friction", "points that stick from slipping more",
                                      "allow more slip (GLIS_MAXI), or take ALGO_FROT='STANDARD'"});
   return pressed || rubbed;

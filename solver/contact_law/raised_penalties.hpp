@@ -12,10 +12,13 @@ namespace comma::solver {
 /// What is too much in each zone: the deepest point and the one that slips furthest while it sticks, as multiples of
 /// what is allowed.
 struct Excess {
+  explicit Excess(std::size_t zones)
+      : depth(zones, 0.0), slip(zones, 0.0), soft_contact(zones, 1.0), soft_friction(zones, 1.0) {}
+
   std::vector<double> depth;
   std::vector<double> slip;
-  std::vector<double> softness{};  ///< the stiffness of the bodies over the penalty given, of contact or friction,
-                                   ///< where that is the softer; empty: 1
+  /// The stiffness of the bodies over the penalty given, where that is softer (>= 1).
+  std::vector<double> soft_contact, soft_friction;
 };
 
 /// The penalties of the zones of a contact are raised by one factor a zone (U4.34.03: ACTION='ADAPT_COEF_PENA' of the

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "solver/contact_law/nodal_step.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/largest_component.hpp"
 #include "solver/model/deformed_places.hpp"
@@ -50,8 +49,8 @@ MixedContact::MixedContact(const ContactDefinition& definition, const Model& mod
                .reference = Eigen::VectorXd::Zero(dofs.size())},
       tangent_(tangent),
       counters_(counters),
-      penalties_(definition.zones.size()),
       augmentations_(contact_, tangent),
+      penalties_(contact_, augmentations_),
       compliance_(contact_, tangent, std::move(support)),
       secants_(contact_),
       rubbing_(contact_) {
@@ -70,18 +69,19 @@ MixedContact::MixedContact(const ContactDefinition& definition, const Model& mod
 
 void MixedContact::restore() {
   contact_.state = remembered_->state;
-  penalties_ = remembered_->penalties;
-  adapted_ = remembered_->adapted;
+  penalties_.take_back_to(remembered_->penalties);
   started_ = remembered_->started;
   resumed_ = remembered_->resumed;
   secants_ = remembered_->secants;
 }
 
-std::shared_ptr<const ContactMemory> MixedContact::memory() const { return contact_memory(contact_, penalties_); }
+std::shared_ptr<const ContactMemory> MixedContact::memory() const {
+  return contact_memory(contact_, penalties_.raised());
+}
 
 void MixedContact::begin_at(const Eigen::VectorXd& u, std::shared_ptr<const ContactMemory> memory) {
   contact_.reference = u;
-  if (memory) resume_penalties(contact_.definition, *memory, penalties_);
+  if (memory) resume_penalties(contact_.definition, *memory, penalties_.raised());
   resumed_ = std::move(memory);
 }
 
@@ -94,9 +94,8 @@ void MixedContact::start_step(const Eigen::VectorXd& u, double duration) {
     hold_points();
   }
   augmentations_.start_step();
-  opens_by_gaps_ = false;
-  adapted_.start_step(closed_count() > 0);
-  apply_penalties();
+  penalties_.start_step(closed_count() > 0);
+  penalties_.apply();
   contact_.problem.expected = contact_.state.multipliers + duration * rates_;
   start_ = contact_.state.multipliers;
   contact_.rows.count_slips(contact_.problem.points, contact_.reference);
@@ -133,8 +132,8 @@ void MixedContact::face(Positions positions, double time, double margin) {
   contact_.rows.face(positions, time, margin);
   ++counters_.pairings;
   contact_.problem.points = contact_.rows.build(contact_.reference);
-  adapted_.face(contact_.definition, points(), contact_.mesh);
-  apply_penalties();
+  penalties_.note_faced();
+  penalties_.apply();
   share_friction();
   if (!started_) start_statuses(contact_.jumps(contact_.reference));
   if (!started_ || (!step_begins_ && !contact_.definition.joint_iterations)) began_closed_ = closed_points();
@@ -308,10 +307,6 @@ bool MixedContact::may_end(int changes) const {
   return !is_secant() || secants_.may_end();
 }
 
-void MixedContact::note_residual(double share) {
-  if (share >= 0.0) secants_.note_residual(share);
-}
-
 MixedContact::HeldImbalance MixedContact::held_imbalance(const Eigen::VectorXd& balance) const {
   HeldImbalance result;
   if (!is_secant() && !is_rubbing()) return result;
@@ -341,13 +336,11 @@ void MixedContact::update_compliance() {
   interpolated_solver_ = {};
 }
 
-/// Nothing is known of a body that contact alone is to hold before it does.
-bool MixedContact::can_predict() const { return tangent_.springs().empty() && !tangent_.is_indefinite(); }
-
 int MixedContact::correct(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& corrected) {
   if (secants_.predicts()) {
     secants_.end_prediction();
-    if (can_predict()) return 0;
+    // Nothing is known of a body that contact alone is to hold before it does.
+    if (tangent_.springs().empty() && !tangent_.is_indefinite()) return 0;
     iterate(Iterations::settled);
   }
   update_compliance();
@@ -442,15 +435,6 @@ std::optional<double> MixedContact::settle(const Eigen::VectorXd& before, const 
   return size > 0.0 ? most / size : most;
 }
 
-/// Between nodes the pressure of a penalty is that of the states of all points of the face, and these are by it: there
-/// may be none that go together. Gaps alone are closed or not. Whether any point has such a law.
-bool MixedContact::open_by_gaps() {
-  if (opens_by_gaps_ || has_points_on_nodes(contact_.problem) || !has_penalties()) return false;
-  opens_by_gaps_ = true;
-  apply_penalties();
-  return true;
-}
-
 /// With the augmentations given; where there is no solution, with softer ones.
 CondensedSolution MixedContact::solve_law() {
   SchurComplement& schur = compliance_.schur();
@@ -463,74 +447,20 @@ CondensedSolution MixedContact::solve_law() {
     solution = solve_condensed(schur, contact_.problem, contact_.state);
     solution.iterations += iterations;
   }
-  if (solution.verdict == CondensedVerdict::too_many_iterations && schur.is_exact() && open_by_gaps()) {
+  if (solution.verdict == CondensedVerdict::too_many_iterations && schur.is_exact() && penalties_.open_by_gaps()) {
     contact_.state = earlier;
     solution = solve_condensed(schur, contact_.problem, contact_.state);
   }
   return solution;
 }
 
-bool MixedContact::stiffen_penalties(const Eigen::VectorXd& u) {
-  const Eigen::VectorXd now = contact_.jumps(u);
-  const std::size_t zones = contact_.definition.zones.size();
-  Excess excess{std::vector<double>(zones, 0.0), std::vector<double>(zones, 0.0), std::vector<double>(zones, 1.0)};
-  for (std::size_t p = 0; p < points().size(); ++p) {
-    const auto zone = static_cast<std::size_t>(points()[p].zone);
-    const MixedZone& mixed = contact_.definition.zones[zone].mixed;
-    const CondensedPoint& point = contact_.problem.points[p];
-    if (point.rows == 0 || contact_.is_free_of_force(p)) continue;
-    const std::optional<double> deepest = penalties_.allowed_depth();
-    const double given = std::min(mixed.penalised ? mixed.augmentation : mixed.friction_penalty,
-                                  mixed.friction_penalised ? mixed.friction_penalty : mixed.augmentation);
-    excess.softness[zone] = std::max(excess.softness[zone], augmentations_.stiffness(p) / given);
-    if (mixed.penalised && deepest) excess.depth[zone] = std::max(excess.depth[zone], -now[point.first_row] / *deepest);
-    if (mixed.friction_penalised && mixed.largest_slip && contact_.state.statuses[p] == ContactStatus::sticking)
-      excess.slip[zone] = std::max(excess.slip[zone], slip_of(point, now) / *mixed.largest_slip);
-  }
-  if (!penalties_.raise(excess)) return false;
-  apply_penalties();
-  return true;
-}
-
-/// A depth that an event of the step limits stands for all others.
-bool MixedContact::adapts(std::size_t zone) const {
-  return contact_.definition.zones[zone].mixed.adapts_penalty && !penalties_.allowed_depth();
-}
-
 bool MixedContact::adapt_penalties(const Eigen::VectorXd& u) {
-  std::vector<char> zones;
-  for (std::size_t zone = 0; zone < contact_.definition.zones.size(); ++zone) zones.push_back(adapts(zone) ? 1 : 0);
-  if (std::ranges::find(zones, 1) == zones.end()) return false;
-  const Eigen::VectorXd now = contact_.jumps(u);
-  const auto depths = [&](const Eigen::VectorXd& gaps) {
-    std::vector<double> result(points().size(), -std::numeric_limits<double>::infinity());
-    for (std::size_t p = 0; p < points().size(); ++p)
-      if (contact_.problem.points[p].rows > 0 && !contact_.is_free_of_force(p))
-        result[p] = -gaps[contact_.problem.points[p].first_row];
-    return result;
+  const auto without_contact = [&]() -> Eigen::VectorXd {
+    // What contact alone holds would lie infinitely deep.
+    if (!tangent_.springs().empty()) return {};
+    return contact_.jumps(u) - compliance_.pushed_by(contact_.forces);
   };
-  const std::vector<double> present = depths(now);
-  const bool is_deep = adapted_.is_too_deep(zones, present);
-  // What contact alone holds would lie infinitely deep.
-  if (is_deep && !began_adapted() && tangent_.springs().empty())
-    adapted_.note_depths(depths(now - compliance_.pushed_by(contact_.forces)));
-  if (!adapted_.adapt(zones, present, is_deep ? tangent_.largest_term(u) : 0.0, !contact_.definition.contact_by_newton))
-    return false;
-  apply_penalties();
-  return true;
-}
-
-void MixedContact::apply_penalties() {
-  for (std::size_t p = 0; p < points().size(); ++p) {
-    const auto zone = static_cast<std::size_t>(points()[p].zone);
-    penalties_.apply(contact_.definition.zones[zone].mixed, points()[p].zone, contact_.problem.points[p]);
-    if (adapts(zone)) contact_.problem.points[p].law.augmentation = adapted_.penalty(p);
-    contact_.problem.points[p].law.opens_by_gap = opens_by_gaps_;
-  }
-}
-
-bool MixedContact::has_penalties() const {
-  return std::ranges::any_of(contact_.definition.zones, [](const ContactZone& zone) { return zone.mixed.penalised; });
+  return penalties_.adapt(u, without_contact, [&] { return tangent_.largest_term(u); });
 }
 
 double MixedContact::penetration(const Eigen::VectorXd& u, bool of_penalties) const {
@@ -546,10 +476,10 @@ double MixedContact::penetration(const Eigen::VectorXd& u, bool of_penalties) co
 void MixedContact::note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts) {
   const ContactResponse response{[this](const Eigen::VectorXd& forces) { return compliance_.pushed_by(forces); },
                                  [this, &u] { return pushed_back(u); },
-                                 penalties_,
+                                 penalties_.raised(),
                                  rubs_by_shears_,
                                  augmentations_.are_lowered(),
-                                 opens_by_gaps_};
+                                 penalties_.opens_by_gaps()};
   comma::solver::note_doubts(solved(u), response, doubts);
   for (const ContactDoubt& doubt : bridged_) doubts.note(doubt);
   if (is_rubbing()) rubbing_.note_doubts(doubts);

@@ -9,11 +9,11 @@
 
 #include "solver/constraints/elimination.hpp"
 #include "solver/contact/doubts.hpp"
-#include "solver/contact_law/adapted_penalties.hpp"
 #include "solver/contact_law/condensed_contact.hpp"
 #include "solver/contact_law/contact_memory.hpp"
 #include "solver/nonlinear/contact_augmentations.hpp"
 #include "solver/nonlinear/contact_compliance.hpp"
+#include "solver/nonlinear/contact_penalties.hpp"
 #include "solver/nonlinear/faced_contact.hpp"
 #include "solver/nonlinear/rubbing_iterations.hpp"
 #include "solver/nonlinear/secant_iterations.hpp"
@@ -48,7 +48,7 @@ class MixedContact {
   void accept_step(double from, double instant);
   /// Pressures, statuses and penalties as they are before a step, and back to them when it fails; points must be faced
   /// anew then.
-  void remember() { remembered_ = {contact_.state, penalties_, adapted_, started_, resumed_, secants_}; }
+  void remember() { remembered_ = {contact_.state, penalties_.state(), started_, resumed_, secants_}; }
   void restore();
   /// See resumed_contact.hpp.
   std::shared_ptr<const ContactMemory> memory() const;
@@ -87,8 +87,10 @@ class MixedContact {
   /// By secants and rubbing ones: a reaction is that of the solve. `balance`: of all loads but those of contact, one a
   /// degree of freedom.
   HeldImbalance held_imbalance(const Eigen::VectorXd& balance) const;
-  /// The residual of an iteration, as a share of the loads.
-  void note_residual(double share);
+  /// The residual of an iteration, as a share of the loads; negative where there are none.
+  void note_residual(double share) {
+    if (share >= 0.0) secants_.note_residual(share);
+  }
   /// Whether points overlap at u that wait for the geometry at the end of the step (see hold_back_points): points must
   /// be faced anew.
   bool leaves_overlap(const Eigen::VectorXd& u) const;
@@ -109,21 +111,15 @@ class MixedContact {
   int closed_count() const { return contact_.closed_count(); }
   /// Whether each point is closed, in the order of the points.
   std::vector<char> closed_points() const { return contact_.closed_points(); }
-  /// Whether a zone gives way (ALGO_CONT='PENALISATION').
-  bool has_penalties() const;
-  /// From now on penalties are raised, at most by a factor, until no point is deeper than this (a length).
-  void limit_depth(double depth, double most_stiffening) { penalties_.limit_depth(depth, most_stiffening); }
   /// The largest depth of a point at u (a length), or of one that has a penalty.
   double penetration(const Eigen::VectorXd& u, bool of_penalties = false) const;
   const std::vector<ContactPoint>& points() const { return contact_.points(); }
 
-  /// Raises the penalty of zones where points lie deeper at u than allowed (`limit_depth`), or points that stick slip
-  /// by more (MixedZone::largest_slip); whether there were any. Throws Error `no-convergence` where that does not help.
-  bool stiffen_penalties(const Eigen::VectorXd& u);
-  /// Adapts the penalties of points to their depths at u (MixedZone::adapts_penalty), once. Whether any changed.
+  const ContactPenalties& penalties() const { return penalties_; }
+  /// See ContactPenalties.
+  void limit_depth(double depth, double most_stiffening) { penalties_.limit_depth(depth, most_stiffening); }
+  bool stiffen_penalties(const Eigen::VectorXd& u) { return penalties_.stiffen(u); }
   bool adapt_penalties(const Eigen::VectorXd& u);
-  /// See AdaptedPenalties.
-  bool began_adapted() const { return adapted_.began_adapted(); }
 
   /// Of a step that has converged at u (see contact_doubts.hpp). Costs a solve where there are penalties.
   void note_doubts(const Eigen::VectorXd& u, ContactDoubts& doubts);
@@ -138,8 +134,7 @@ class MixedContact {
  private:
   struct Remembered {
     CondensedState state;
-    RaisedPenalties penalties;
-    AdaptedPenalties adapted;
+    ContactPenalties::State penalties;
     bool started = false;
     std::shared_ptr<const ContactMemory> resumed;
     SecantIterations secants;
@@ -151,17 +146,13 @@ class MixedContact {
   void start_statuses(const Eigen::VectorXd& jumps);
   void close_nearest(const Eigen::VectorXd& jumps);
   void close_slides();
-  void apply_penalties();
-  bool adapts(std::size_t zone) const;
   void share_friction();
-  bool open_by_gaps();
   CondensedSolution solve_law();
   bool is_faced_again() const;
   void hold_points();
   void hold_back_points();
   void check_blocked_points(const Eigen::VectorXd& jumps) const;
   void update_compliance();
-  bool can_predict() const;
   double displacement_of_surfaces(const Eigen::VectorXd& u) const;
   void begin_near(const Eigen::VectorXd& before, const Eigen::VectorXd& offset);
   std::optional<double> settle(const Eigen::VectorXd& before, const Eigen::VectorXd& offset, Eigen::VectorXd& forces,
@@ -172,9 +163,8 @@ class MixedContact {
   Counters& counters_;
   std::vector<int> eliminated_;
 
-  RaisedPenalties penalties_;
-  AdaptedPenalties adapted_;
   ContactAugmentations augmentations_;
+  ContactPenalties penalties_;
   ContactCompliance compliance_;
   ActiveSetMemory memory_;
   NearInverse near_inverse_;
@@ -190,7 +180,6 @@ class MixedContact {
   bool started_ = false;
   std::shared_ptr<const ContactMemory> resumed_;  ///< null once statuses have started from it
   std::optional<Remembered> remembered_;
-  bool opens_by_gaps_ = false;          ///< points between nodes that have penalties: for the rest of a step
   bool rubs_by_shears_ = false;         ///< see CondensedSolution::by_shears
   std::vector<ContactDoubt> bridged_;   ///< gaps that points of slides are closed across
   Eigen::VectorXd start_;               ///< multipliers when the step began

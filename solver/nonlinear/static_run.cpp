@@ -127,7 +127,7 @@ void StaticRun::begin(const StepPlan& plan) {
 
 void StaticRun::limit_depth(const StepEvent* event) {
   if (event == nullptr) return;
-  if (!mixed_ || !mixed_->has_penalties())
+  if (!mixed_ || !mixed_->penalties().exist())
     throw Error("contradictory-keywords",
                 "no contact here has a penalty, and points that go too deep are watched (EVENEMENT='INTERPENETRATION')",
                 "take ALGO_CONT='PENALISATION', or leave out the event");

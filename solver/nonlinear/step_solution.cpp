@@ -66,7 +66,8 @@ int StaticRun::solve_step(double time) {
       iterations = earlier + (mixed_ && mixed_->is_rubbing()
                                   ? balance_by_fixed_points(time, update == 0 ? least_fixed_points : 1, balance)
                                   : balance());
-      if (update == 0 && mixed_ && mixed_->began_adapted() && adapt_penalties_once()) iterations += balance();
+      if (update == 0 && mixed_ && mixed_->penalties().began_adapted() && adapt_penalties_once())
+        iterations += balance();
       for (int adaptations = 0; penalties_change(time, adaptations); ++adaptations) iterations += balance();
     }
     const bool at_rest = !geometry || geometry->settled(now_.reference, now_.state.u);
