@@ -151,9 +151,7 @@ void CondensedEquations::number_unknowns() {
     const bool open = state_.statuses[p] == ContactStatus::open;
     for (int c = 0; c < point.rows && !open; ++c) add_row(point.first_row + c);
     if (open && point.node_count == 1) continue;
-    for (int i = 0; i < point.node_count; ++i)
-      for (int c = 0; c < (is_smooth(point.nodes[i]) ? 1 : point.components); ++c)
-        multiplier_unknowns_[multiplier_index(point.nodes[i], c)] = 0;
+    problem_.visit_multipliers(point, [this](int multiplier) { multiplier_unknowns_[multiplier] = 0; });
   }
   for (const CondensedSpring& spring : problem_.springs) add_row(spring.row);
   unknowns_ = static_cast<int>(unknown_rows_.size());
@@ -225,7 +223,8 @@ bool CondensedEquations::correct_at_nodes() {
   for (std::size_t k = 0; k < unknown_rows_.size(); ++k) jumps_[unknown_rows_[k]] -= (*jumps)[static_cast<Index>(k)];
   if (problem_.one_step) take_solved_forces(step.force_changes());
   for (const NodalStep::Change& change : step.multiplier_changes())
-    for (int c = 0; c < change.rows; ++c) state_.multipliers[multiplier_index(change.node, c)] -= change.value[c];
+    for (int c = 0; c < change.rows; ++c)
+      state_.multipliers[problem_.multiplier_index(change.node, c)] -= change.value[c];
   return true;
 }
 
@@ -274,7 +273,7 @@ void CondensedEquations::add_traction_derivatives(const CondensedPoint& point, c
                                      point.weight * value.traction_by_jump(a, b));
     for (int i = 0; i < point.node_count; ++i)
       for (int b = 0; b < problem_.components; ++b)
-        equations.add_force_derivative(place, multiplier_unknowns_[multiplier_index(point.nodes[i], b)],
+        equations.add_force_derivative(place, multiplier_unknowns_[problem_.multiplier_index(point.nodes[i], b)],
                                        point.weight * point.shape[i] * value.traction_by_multiplier(a, b));
   }
 }
@@ -282,8 +281,8 @@ void CondensedEquations::add_traction_derivatives(const CondensedPoint& point, c
 void CondensedEquations::add_laws(const CondensedPoint& point, const ContactLawValue& value,
                                   InterpolatedStep& equations, Eigen::VectorXd& balance) const {
   for (int i = 0; i < point.node_count; ++i)
-    for (int a = 0; a < point.components; ++a) {
-      const int equation = multiplier_unknowns_[multiplier_index(point.nodes[i], a)];
+    for (int a = 0; a < point.law_components(); ++a) {
+      const int equation = multiplier_unknowns_[problem_.multiplier_index(point.nodes[i], a)];
       if (equation < 0) continue;
       const double weight = point.weight * point.shape[i];
       balance[equation] += weight * value.residual[a];
@@ -293,7 +292,7 @@ void CondensedEquations::add_laws(const CondensedPoint& point, const ContactLawV
                                      weight * value.residual_by_jump(a, b));
       for (int j = 0; j < point.node_count; ++j)
         for (int b = 0; b < problem_.components; ++b)
-          equations.add_law_derivative(equation, multiplier_unknowns_[multiplier_index(point.nodes[j], b)],
+          equations.add_law_derivative(equation, multiplier_unknowns_[problem_.multiplier_index(point.nodes[j], b)],
                                        weight * point.shape[j] * value.residual_by_multiplier(a, b));
     }
 }
@@ -314,10 +313,9 @@ void CondensedEquations::evaluate() {
     const CondensedPoint& point = problem_.points[p];
     const ContactLawValue value = law_at(p);
     for (int c = 0; c < point.rows; ++c) forces_[point.first_row + c] += point.weight * value.traction[c];
-    // A point without friction says nothing of shears that others of a node have.
     for (int i = 0; i < point.node_count; ++i)
-      for (int c = 0; c < point.components; ++c) {
-        const int index = multiplier_index(point.nodes[i], c);
+      for (int c = 0; c < point.law_components(); ++c) {
+        const int index = problem_.multiplier_index(point.nodes[i], c);
         law.residual[index] += point.weight * point.shape[i] * value.residual[c];
         law.weight[index] += point.weight * std::abs(point.shape[i]);
         if (c == 0 && state_.statuses[p] == ContactStatus::open) law.open[index] = law_of(p).augmentation;
@@ -358,7 +356,7 @@ void CondensedEquations::measure(const LawBalance& law, const Eigen::VectorXd& b
 double CondensedEquations::largest_pressure() const {
   double largest = 0.0;
   for (int node = 0; node < problem_.node_count; ++node)
-    largest = std::max(largest, std::abs(state_.multipliers[multiplier_index(node, 0)]));
+    largest = std::max(largest, std::abs(state_.multipliers[problem_.multiplier_index(node, 0)]));
   return largest;
 }
 
@@ -379,7 +377,7 @@ Vector3d CondensedEquations::law_rounding(std::size_t p) const {
   Vector3d sums = Vector3d::Zero();
   for (int i = 0; i < point.node_count; ++i)
     for (int c = 0; c < problem_.components; ++c)
-      sums[c] += std::abs(point.shape[i] * state_.multipliers[multiplier_index(point.nodes[i], c)]);
+      sums[c] += std::abs(point.shape[i] * state_.multipliers[problem_.multiplier_index(point.nodes[i], c)]);
   const ContactLaw law = law_of(p);
   constexpr double epsilon = std::numeric_limits<double>::epsilon();
   const double normal = state_.statuses[p] == ContactStatus::open ? epsilon / law.augmentation : 0.0;
@@ -396,8 +394,8 @@ double CondensedEquations::law_rounding() const {
     for (int i = 0; i < point.node_count; ++i)
       for (int c = 0; c < problem_.components; ++c) {
         const double share = point.weight * std::abs(point.shape[i]);
-        rounding[multiplier_index(point.nodes[i], c)] += share * each[c];
-        weight[multiplier_index(point.nodes[i], c)] += share;
+        rounding[problem_.multiplier_index(point.nodes[i], c)] += share * each[c];
+        weight[problem_.multiplier_index(point.nodes[i], c)] += share;
       }
   }
   double largest = 0.0;

@@ -73,8 +73,6 @@ class CondensedEquations {
  private:
   void take_jumps_of_penalties();
   static void let_multipliers_bear_penalties(double stiffness, ContactLaw& law);
-  int multiplier_index(int node, int component) const { return node * problem_.components + component; }
-  bool is_smooth(int node) const { return !problem_.smooth.empty() && problem_.smooth[static_cast<std::size_t>(node)]; }
   ContactLawValue law_at(std::size_t p) const;
   /// A multiplier is zero, without more ado, where each of its points lies on its node and is open, or does not rub.
   void number_unknowns();

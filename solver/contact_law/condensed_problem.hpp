@@ -33,6 +33,10 @@ struct CondensedPoint {
   bool bilateral = false;      ///< once closed it stays closed
   double idle_friction = 0.0;  ///< Coulomb's coefficient where conditions hold both bodies along the surface: such
                                ///< friction moves nothing, and the law has none
+
+  /// How many components of multipliers its law says something of: without friction the pressure alone, and shears of
+  /// its nodes are what other points have there.
+  int law_components() const { return law.friction > 0.0 ? components : 1; }
 };
 
 /// A row whose force is `stiffness` times its own jump: springs that were added to the bodies come off again with it.
@@ -86,6 +90,16 @@ struct CondensedProblem {
   InterpolatedSolver* interpolated_solver = nullptr;
   ShareSearch* share_search = nullptr;  ///< of shares of friction, if searches are to learn from each other
   ActiveSetMemory* memory = nullptr;    ///< of solutions without friction, if they are to begin from each other
+
+  bool is_smooth(int node) const { return !smooth.empty() && smooth[static_cast<std::size_t>(node)] != 0; }
+  int multiplier_index(int node, int component) const { return node * components + component; }
+  /// Calls visit(index of the multiplier) for all that the law of a point says something of.
+  template <typename Visit>
+  void visit_multipliers(const CondensedPoint& point, const Visit& visit) const {
+    for (int i = 0; i < point.node_count; ++i)
+      for (int c = 0; c < (is_smooth(point.nodes[static_cast<std::size_t>(i)]) ? 1 : point.law_components()); ++c)
+        visit(multiplier_index(point.nodes[static_cast<std::size_t>(i)], c));
+  }
 };
 
 struct CondensedState {

@@ -77,6 +77,9 @@ ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const E
 Eigen::Vector3d live_part(const ContactLaw& law, Eigen::Vector3d value);
 /// The same of two tangents, as a matrix.
 Eigen::Matrix2d live_directions(const ContactLaw& law);
+/// Between nodes what is left of the law along its dead direction counts next to nothing: other points of its nodes may
+/// know of the multiplier there, and it vanishes where none does.
+Eigen::Matrix2d weights_between_nodes(const ContactLaw& law);
 
 /// The pressure that the law brings while it is closed.
 double trial_pressure(const ContactLaw& law, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);

@@ -23,8 +23,7 @@ bool has_points_on_nodes(const CondensedProblem& problem) {
     if (point.rows == 0) continue;
     if (point.node_count != 1 || point.shape[0] != 1.0 || point.rows != point.components) return false;
     const auto node = static_cast<std::size_t>(point.nodes[0]);
-    const bool is_smooth = !problem.smooth.empty() && problem.smooth[node];
-    if (taken[node]++ || point.rows != (is_smooth ? 1 : point.components)) return false;
+    if (taken[node]++ || point.rows != (problem.is_smooth(point.nodes[0]) ? 1 : point.components)) return false;
   }
   return true;
 }

@@ -79,13 +79,11 @@ class Smoothing {
 
   Index rows() const { return static_cast<Index>(rows_.size()); }
   Index size() const { return unknown_rows_ + multipliers_; }
-  int multiplier_index(int node, int component) const { return node * problem_.components + component; }
-  bool is_smooth(int node) const { return !problem_.smooth.empty() && problem_.smooth[static_cast<std::size_t>(node)]; }
   int row_of(const CondensedPoint& point, int component) const {
     return numbers_[static_cast<std::size_t>(point.first_row + component)];
   }
   int unknown_of(int node, int component) const {
-    return multiplier_unknowns_[static_cast<std::size_t>(multiplier_index(node, component))];
+    return multiplier_unknowns_[static_cast<std::size_t>(problem_.multiplier_index(node, component))];
   }
 
   void add_row(int row) {
@@ -103,11 +101,11 @@ class Smoothing {
     const Index springs = rows();
     for (const CondensedPoint& point : problem_.points) {
       for (int c = 0; c < point.rows; ++c) add_row(point.first_row + c);
-      for (int i = 0; i < point.node_count && point.rows > 0; ++i) {
+      if (point.rows == 0) continue;
+      for (int i = 0; i < point.node_count; ++i)
         node_weights_[point.nodes[i]] += point.weight * std::abs(point.shape[i]);
-        for (int c = 0; c < (is_smooth(point.nodes[i]) ? 1 : point.components); ++c)
-          multiplier_unknowns_[static_cast<std::size_t>(multiplier_index(point.nodes[i], c))] = 0;
-      }
+      problem_.visit_multipliers(
+          point, [this](int multiplier) { multiplier_unknowns_[static_cast<std::size_t>(multiplier)] = 0; });
     }
     unknown_rows_ = on_nodes_ ? springs : rows();
     for (int& unknown : multiplier_unknowns_)
@@ -198,7 +196,7 @@ class Smoothing {
              .law_share = law_share_,
              .law_share_along = law_share_along_,
              .stays_closed = stays_closed(p),
-             .rubs = point.rows > 1,
+             .rubs = point.rows > 1 && point.law_components() > 1,
              .on_node = on_nodes_}};
   }
 

@@ -51,9 +51,13 @@ TEST_CASE("Along a dead direction the law is that of a point without friction, a
       const ContactLawValue value = contact_law(law, status, multiplier, jump);
       CAPTURE(share_pressure, static_cast<int>(status));
       CHECK(value.traction[2] == 0.0);
-      CHECK(value.residual[2] == Approx(smooth.residual[2]).epsilon(1e-14));
+      // Other points of the nodes may have a shear there.
+      const double weight = status == ContactStatus::open ? 1.0 : 1e-8;
+      CHECK(value.residual[2] == Approx(weight * smooth.residual[2]).epsilon(1e-14).margin(1e-20));
       CHECK((value.traction - whole.traction).norm() <= 1e-14 * whole.traction.norm());
       CHECK((value.residual - whole.residual).head<2>().norm() <= 1e-14 * whole.residual.norm());
+      law.pointwise = true;
+      CHECK(contact_law(law, status, multiplier, jump).residual[2] == Approx(smooth.residual[2]).epsilon(1e-14));
     }
 }
 

@@ -192,3 +192,25 @@ TEST_CASE("A long contact that slides takes few solutions a step, whatever the f
   }
   CHECK(sums[0] == Approx(sums[1]).epsilon(1e-3));  // the weights of nodes differ at the ends
 }
+
+TEST_CASE("Between nodes points that nothing can drag leave the shears of their nodes to others") {
+  std::vector<double> shares;
+  for (const double augmentation : {1.0, 2e5}) {
+    Stack stack(3, 3);
+    MixedZone& mixed = stack.scene.problem.contact->zones.front().mixed;
+    mixed.rule = ContactRule::gauss;
+    mixed.friction = 5.0;
+    mixed.augmentation = mixed.friction_augmentation = augmentation;
+    // Both bodies are held along the first face.
+    for (const std::size_t node : {0U, 1U}) {
+      stack.scene.impose({stack.lower.nodes.back()[node]}, Component::dx, 0);
+      stack.scene.impose({stack.upper.nodes.front()[node]}, Component::dx, 0);
+    }
+    stack.scene.impose(stack.upper.nodes.back(), Component::dy, -0.02);
+    stack.scene.impose(stack.upper.nodes.back(), Component::dx, 0.01);
+    stack.scene.solve(1);
+    shares.push_back(shear_share(stack.scene, stack.upper.nodes.front()[1]));
+  }
+  CHECK(std::abs(shares[0]) > 0.01);
+  CHECK(shares[1] == Approx(shares[0]).epsilon(1e-4));
+}
