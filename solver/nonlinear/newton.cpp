@@ -57,6 +57,7 @@ NewtonSolver::NewtonSolver(const Mesh& mesh, const DofMap& dofs, const Assembler
       observer_(observer),
       criterion_(options),
       reference_(reference),
+      held_(elimination, tangent),
       prediction_(options.tangent.prediction),
       policy_(options.tangent),
       most_iterations_(options.max_iterations) {}
@@ -92,7 +93,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
     if (is_linear) correction.changes = mixed_->linearise(state.u, time);
     const double taken = searches(iteration) ? search(before, external, offset, state) : 1.0;
     const bool is_whole = taken == 1.0 || !has_conditions();
-    if (knows_reactions()) take_reactions(balance, change, taken);
+    if (knows_reactions()) held_.take(held_.of(balance, change), taken);
     evaluate(state, external);
     const auto measure = distance(state);
     history.push_back(report(time, earlier + iteration, measure, correction.changes, state));

@@ -13,6 +13,7 @@
 #include "solver/elements/assembler.hpp"
 #include "solver/nonlinear/condition_set.hpp"
 #include "solver/nonlinear/convergence.hpp"
+#include "solver/nonlinear/held_reactions.hpp"
 #include "solver/nonlinear/known_forces.hpp"
 #include "solver/nonlinear/mixed_contact.hpp"
 #include "solver/nonlinear/reference_forces.hpp"
@@ -61,7 +62,7 @@ class NewtonSolver {
 
   /// These unknowns are eliminated, without reactions (AFFE_CHAR_CINE): what the linear solves do not balance there is
   /// no residual.
-  void set_eliminated(std::vector<int> dofs) { eliminated_ = std::move(dofs); }
+  void set_eliminated(std::vector<int> dofs) { held_.set_eliminated(std::move(dofs)); }
 
   /// The next solutions belong to a step of this length (s), which may be short enough for the elastic stiffness.
   void start_step(double duration);
@@ -135,9 +136,7 @@ class NewtonSolver {
   ConvergenceCriterion::Measure distance(const NewtonState& state) const;
   bool is_rounding(const NewtonState& state) const;
   bool knows_reactions() const;
-  void take_reactions(const Eigen::VectorXd& balance, const Eigen::VectorXd& change, double taken);
   Eigen::VectorXd held_imbalance() const;
-  double load_with_reactions(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal) const;
   void polish(NewtonState& state, const Eigen::VectorXd& external, const Eigen::VectorXd& offset);
   std::optional<double> penetration(const NewtonState& state) const;
   IterationReport report(double time, int iteration, const ConvergenceCriterion::Measure& measure, int changes,
@@ -176,9 +175,8 @@ class NewtonSolver {
   double load_ = 0.0;
   Eigen::VectorXd balance_;  ///< external less internal forces, on all degrees of freedom
   double applied_ = 0.0;     ///< the largest component of the external forces
-  std::vector<int> eliminated_;
-  Eigen::VectorXd reactions_;  ///< of the linear solves, at the unknowns that conditions hold; zero elsewhere
-  int steps_ = 0;              ///< accepted so far
+  HeldReactions held_;
+  int steps_ = 0;  ///< accepted so far
   TangentKind prediction_;
   TangentPolicy policy_;  ///< of this step
   double duration_ = 0.0;

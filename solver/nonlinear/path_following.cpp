@@ -55,6 +55,7 @@ PathFollowing::PathFollowing(const StaticProblem& problem, const DofMap& dofs, c
       observer_(observer),
       criterion_(options),
       reference_(reference),
+      held_(elimination, tangent),
       relation_multipliers_(
           dofs, control_.choice == PathChoice::smallest_angle ? relations_of(problem) : std::vector<AppliedLoad>()) {
   multipliers_start_ = VectorXd::Zero(relation_multipliers_.size());
@@ -123,10 +124,10 @@ int PathFollowing::iterate(bool stays, double wanted, const DrivenLoads& loads, 
     multipliers_ = change.multipliers.constant + intensity_ * change.multipliers.linear;
     q = u(elimination_.kept());
     u = elimination_.transformation() * q + loads.fixed_offset + intensity_ * loads.driven_offset;
+    take_reactions(intensity_, change, loads);
     evaluate(intensity_, loads, u);
-    const VectorXd weighed = weights_.weighed(residual_);
-    const auto measure = criterion_.measure(largest_component(weighed), load_, false, reference_.share(residual_),
-                                            reference_.share_by_component(weighed));
+    const VectorXd left = held_.imbalance(balance_);
+    const auto measure = comma::solver::measure(criterion_, reference_, weights_, {residual_, left}, load_);
     history.push_back(report(iteration, measure));
     if (observer_) observer_(history.back());
     if (measure.converged) {
@@ -171,7 +172,7 @@ PathFollowing::Correction PathFollowing::correction(int iteration, const DrivenL
   if (!moved.isZero(0.0)) columns.col(0) -= tangent_.reduced_forces(u, moved, kind);
   if (!loads.driven_offset.isZero(0.0)) columns.col(1) -= tangent_.reduced_forces(u, loads.driven_offset, kind);
   if (columns.size()) tangent_.solve(columns);
-  Correction change{t * columns.col(0) + moved, t * columns.col(1) + loads.driven_offset, {}};
+  Correction change{t * columns.col(0) + moved, t * columns.col(1) + loads.driven_offset, {}, held};
   if (!relation_multipliers_.empty()) {
     Eigen::MatrixXd whole(u.size(), 2);
     whole << change.constant, change.linear;
@@ -195,14 +196,14 @@ void PathFollowing::shorten(double wanted, const DrivenLoads& loads, const Vecto
     return full(elimination_.kept());
   };
   const auto work = [&](double share) {
-    change = {share * whole.constant, share * whole.linear, whole.multipliers};
+    change = {share * whole.constant, share * whole.linear, whole.multipliers, whole.internal};
     intensity_ = chosen(candidates(wanted, change, u), change, loads, u);
     evaluate(intensity_, loads, u + change.constant + intensity_ * change.linear);
     return direction().dot(residual_);
   };
   const double start = direction().dot(residual_);
   const double share = search_line(*options_.line_search, start, work);
-  change = {share * whole.constant, share * whole.linear, whole.multipliers};
+  change = {share * whole.constant, share * whole.linear, whole.multipliers, whole.internal};
 }
 
 VectorXd PathFollowing::controlled(const VectorXd& u) const {
@@ -297,8 +298,7 @@ double PathFollowing::chosen(const std::vector<double>& found, const Correction&
 /// The smaller, the better; of equals the larger intensity. Without a step before there is no angle, and all are equal.
 double PathFollowing::cost(PathChoice by, double intensity, const Correction& change, const DrivenLoads& loads,
                            const VectorXd& u) {
-  if (by == PathChoice::smallest_residual)
-    return residual_or_infinity(intensity, loads, u + change.constant + intensity * change.linear);
+  if (by == PathChoice::smallest_residual) return residual_or_infinity(intensity, change, loads, u);
   if (by == PathChoice::smallest_increment) return increment(intensity, change, u).norm();
   return knows_direction() ? -advance(intensity, change, u) : 0.0;
 }
@@ -360,10 +360,12 @@ bool PathFollowing::turns_back_by_rounding(const std::vector<double>& choice, co
 }
 
 /// Where the body cannot be, no residual is larger.
-double PathFollowing::residual_or_infinity(double intensity, const DrivenLoads& loads, const VectorXd& u) {
+double PathFollowing::residual_or_infinity(double intensity, const Correction& change, const DrivenLoads& loads,
+                                           const VectorXd& u) {
   try {
-    evaluate(intensity, loads, u);
-    return largest_component(residual_);
+    take_reactions(intensity, change, loads);
+    evaluate(intensity, loads, u + change.constant + intensity * change.linear);
+    return std::max(largest_component(residual_), largest_component(held_.imbalance(balance_)));
   } catch (const Error& error) {
     if (error.code() != "integration-failure") throw;
     return std::numeric_limits<double>::infinity();
@@ -373,8 +375,17 @@ double PathFollowing::residual_or_infinity(double intensity, const DrivenLoads& 
 void PathFollowing::evaluate(double intensity, const DrivenLoads& loads, const VectorXd& u) {
   const VectorXd forces = loads.fixed + intensity * loads.driven;
   const VectorXd internal = assembler_.internal_forces(u);
-  residual_ = elimination_.transformation().transpose() * (forces - internal);
-  load_ = weights_.load_size(forces, internal, variable_forces_);
+  balance_ = forces - internal;
+  residual_ = elimination_.transformation().transpose() * balance_;
+  load_ = held_.are_known() ? held_.load_size(weights_, forces, internal, variable_forces_)
+                            : weights_.load_size(forces, internal, variable_forces_);
+}
+
+/// Those of the linear solve with that intensity.
+void PathFollowing::take_reactions(double intensity, const Correction& change, const DrivenLoads& loads) {
+  if (tangent_.is_constant()) return;
+  const VectorXd balance = loads.fixed + intensity * loads.driven - change.internal;
+  held_.take(held_.of(balance, change.constant + intensity * change.linear), 1.0);
 }
 
 IterationReport PathFollowing::report(int iteration, const ConvergenceCriterion::Measure& measure) const {

@@ -14,6 +14,7 @@
 #include "solver/fields/relation_multipliers.hpp"
 #include "solver/nonlinear/convergence.hpp"
 #include "solver/nonlinear/elastic_prediction.hpp"
+#include "solver/nonlinear/held_reactions.hpp"
 #include "solver/nonlinear/reference_forces.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 #include "solver/nonlinear/strain_control.hpp"
@@ -50,6 +51,8 @@ class PathFollowing {
   int solve(double time, double duration, const DrivenLoads& loads, bool is_last_resort, Eigen::VectorXd& q,
             Eigen::VectorXd& u);
 
+  /// See HeldReactions.
+  void set_eliminated(std::vector<int> dofs) { held_.set_eliminated(std::move(dofs)); }
   /// The step is accepted at u.
   void accept_step(const Eigen::VectorXd& u);
   double intensity() const { return intensity_; }
@@ -72,7 +75,8 @@ class PathFollowing {
   struct Correction {
     Eigen::VectorXd constant;
     Eigen::VectorXd linear;
-    Multipliers multipliers;  ///< after it, where the choice is by the angle; else empty
+    Multipliers multipliers;   ///< after it, where the choice is by the angle; else empty
+    Eigen::VectorXd internal;  ///< forces from which it was found
   };
 
   /// Which of the intensities an iteration takes.
@@ -104,8 +108,10 @@ class PathFollowing {
   double chosen(const std::vector<double>& found, const Correction& change, const DrivenLoads& loads,
                 const Eigen::VectorXd& u);
   double bounded(double intensity) const;
-  double residual_or_infinity(double intensity, const DrivenLoads& loads, const Eigen::VectorXd& u);
+  double residual_or_infinity(double intensity, const Correction& change, const DrivenLoads& loads,
+                              const Eigen::VectorXd& u);
   void evaluate(double intensity, const DrivenLoads& loads, const Eigen::VectorXd& u);
+  void take_reactions(double intensity, const Correction& change, const DrivenLoads& loads);
   void tell(const std::string& text) const;
   IterationReport report(int iteration, const ConvergenceCriterion::Measure& measure) const;
 
@@ -121,6 +127,7 @@ class PathFollowing {
   const IterationObserver& observer_;
   ConvergenceCriterion criterion_;
   const ReferenceForces& reference_;
+  HeldReactions held_;
   RelationMultipliers relation_multipliers_;
   std::unique_ptr<ElasticPrediction> prediction_;
   std::unique_ptr<StrainControl> strains_;
@@ -134,6 +141,7 @@ class PathFollowing {
   Eigen::VectorXd last_step_;        ///< increment of the last accepted step; empty before it
   Eigen::VectorXd multipliers_;      ///< of relations, as the last correction leaves them
   Eigen::VectorXd multipliers_start_;
+  Eigen::VectorXd balance_;   ///< external less internal forces, on all degrees of freedom
   Eigen::VectorXd residual_;  ///< reduced
   RowWeights weights_;
   double load_ = 0.0;

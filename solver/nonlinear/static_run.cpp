@@ -53,7 +53,8 @@ StaticRun::StaticRun(const StaticProblem& problem, const NewtonOptions& options,
       contact_nodes_(nodes_of_contact()),
       observer_(observer),
       newton_(mesh_, dofs_, assembler_, elimination_, options, counters, tangent_, reference_, support(), observer) {
-  newton_.set_eliminated(dofs_without_reactions(problem.loads, dofs_));
+  const std::vector<int> eliminated = dofs_without_reactions(problem.loads, dofs_);
+  newton_.set_eliminated(eliminated);
   if (problem.contact) newton_.use_algorithm(*problem.contact);
   const bool has_bounds = problem.contact || !problem.unilateral.empty();
   takes_plain_tangents_ =
@@ -69,11 +70,12 @@ StaticRun::StaticRun(const StaticProblem& problem, const NewtonOptions& options,
   if (options.path)
     path_ = std::make_unique<PathFollowing>(problem, dofs_, assembler_, elimination_, options, counters, tangent_,
                                             reference_, observer);
+  if (path_) path_->set_eliminated(eliminated);
   if (!is_mixed()) return;
   tangent_.allow_springs();
   mixed_ = std::make_unique<MixedContact>(*problem.contact, *problem.model, dofs_, elimination_, tangent_, counters,
                                           support());
-  mixed_->set_eliminated(dofs_without_reactions(problem.loads, dofs_));
+  mixed_->set_eliminated(eliminated);
   newton_.attach(mixed_.get());
 }
 

@@ -34,7 +34,7 @@ void NewtonSolver::measure(const Eigen::VectorXd& loads, const Eigen::VectorXd& 
   residual_ = elimination_.transformation().transpose() * balance_;
   if (row_multipliers_.size()) residual_ -= reduced_.inequalities.rows.transpose() * row_multipliers_;
   if (mixed_) residual_ += mixed_->forces();
-  load_ = knows_reactions() && reactions_.size() ? load_with_reactions(loads, internal)
+  load_ = knows_reactions() && held_.are_known() ? held_.load_size(weights_, loads, internal, variable_forces_)
                                                  : weights_.load_size(loads, internal, variable_forces_);
   applied_ = largest_component(loads);
 }
@@ -45,42 +45,17 @@ bool NewtonSolver::knows_reactions() const {
   return !has_conditions() && !relations_.update && !tangent_.is_constant();
 }
 
-/// After a correction of which a share was taken: `balance` as it was before, `change` the whole correction.
-void NewtonSolver::take_reactions(const Eigen::VectorXd& balance, const Eigen::VectorXd& change, double taken) {
-  Eigen::VectorXd solved = tangent_.held_forces(change) - balance;
-  for (const int dof : elimination_.kept()) solved[dof] = 0.0;
-  if (taken == 1.0 || reactions_.size() != solved.size())
-    reactions_ = taken * solved;
-  else
-    reactions_ += taken * (solved - reactions_);
-}
-
 /// By what internal forces, less loads, differ from the reactions; one a degree of freedom.
 Eigen::VectorXd NewtonSolver::held_imbalance() const {
-  Eigen::VectorXd left = Eigen::VectorXd::Zero(balance_.size());
-  if (!knows_reactions() || reactions_.size() != left.size()) return left;
-  left = -balance_ - reactions_;
-  for (const int dof : elimination_.kept()) left[dof] = 0.0;
-  for (const int dof : eliminated_) left[dof] = 0.0;
-  return left;
-}
-
-double NewtonSolver::load_with_reactions(const Eigen::VectorXd& loads, const Eigen::VectorXd& internal) const {
-  Eigen::VectorXd borne = reactions_;
-  for (const int dof : eliminated_) borne[dof] = internal[dof] - loads[dof];
-  return weights_.load_size(loads, loads + borne, variable_forces_);
+  return knows_reactions() ? held_.imbalance(balance_) : Eigen::VectorXd(Eigen::VectorXd::Zero(balance_.size()));
 }
 
 ConvergenceCriterion::Measure NewtonSolver::distance(const NewtonState& state) const {
-  const Eigen::VectorXd weighed = weights_.weighed(residual_);
   const MixedContact::HeldImbalance held = mixed_ ? mixed_->held_imbalance(balance_) : MixedContact::HeldImbalance();
-  const Eigen::VectorXd left = held_imbalance(), weighed_left = weights_.weighed_all(left);
-  const double at_supports = std::max(held.counted, largest_component(weighed_left));
-  auto by_component = reference_.share_by_component(weighed);
-  if (by_component) by_component = std::max(*by_component, *reference_.share_by_component_of_all(weighed_left));
-  return criterion_.measure(std::max(at_supports, largest_component(weighed)), std::max(held.largest, load_),
-                            is_rounding(state) && largest_component(weighed_left) <= rounding_share * load_,
-                            std::max(reference_.share(residual_), reference_.share_of_all(left)), by_component);
+  const Eigen::VectorXd left = held_imbalance();
+  const bool rounds = is_rounding(state) && largest_component(weights_.weighed_all(left)) <= rounding_share * load_;
+  return comma::solver::measure(criterion_, reference_, weights_, {residual_, left}, std::max(held.largest, load_),
+                                held.counted, rounds);
 }
 
 /// Whether the residual is no more than the last bits of u, moved to and fro, make of it. Not where u is so large that

@@ -212,3 +212,23 @@ TEST_CASE("Path following from rest into plastic flow: the smaller increment of 
     CHECK(intensity(along.scene, step) > intensity(along.scene, step - 1));
   }
 }
+
+TEST_CASE("Path following: supports whose reactions are not those of the body yet are out of balance") {
+  // All of a block that flows is held or driven: nothing is left free to be out of balance.
+  Metal metal(100.0);
+  auto driven = std::make_shared<Load>();
+  for (const int node : metal.block.nodes.back()) {
+    LinearRelation relation;
+    relation.terms = {{node, Component::dy, 1.0}};
+    relation.value = 1.0;
+    relation.origin = std::make_shared<const std::string>("driven in the scene");
+    driven->relations.push_back(relation);
+  }
+  metal.scene.problem.driven = {{driven, {}}};
+  for (const auto& row : metal.block.nodes) metal.scene.impose(row, Component::dx, 0.0);
+  metal.options.path->nodes = {metal.block.nodes.back().front()};
+  metal.options.path->components = {Component::dy};
+  metal.options.path->scale = 50.0;  // a step of 1 s strains by four times the yield strain
+  metal.scene.solve(1, metal.options);
+  CHECK(metal.scene.counters.newton_iterations == 2);
+}
