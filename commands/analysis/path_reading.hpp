@@ -4,7 +4,7 @@
 #include "commands/concepts.hpp"
 #include "interpreter/graph/call.hpp"
 #include "solver/mesh/mesh.hpp"
-#include "solver/nonlinear/path_control.hpp"
+#include "solver/nonlinear/iterations/path_control.hpp"
 
 namespace comma::commands {
 

@@ -3,7 +3,7 @@
 
 #include "solver/elements/assembler.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
-#include "solver/nonlinear/step_sequence.hpp"
+#include "solver/nonlinear/steps/step_sequence.hpp"
 
 namespace comma::solver {
 

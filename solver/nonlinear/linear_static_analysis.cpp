@@ -10,7 +10,7 @@
 #include "solver/elements/assembler.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/largest_component.hpp"
-#include "solver/nonlinear/tangent_system.hpp"
+#include "solver/nonlinear/iterations/tangent_system.hpp"
 
 namespace comma::solver {
 namespace {

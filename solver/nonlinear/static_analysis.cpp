@@ -1,6 +1,6 @@
 #include "solver/nonlinear/static_analysis.hpp"
 
-#include "solver/nonlinear/static_run.hpp"
+#include "solver/nonlinear/steps/static_run.hpp"
 
 namespace comma::solver {
 

@@ -16,9 +16,9 @@
 #include "solver/materials/material.hpp"
 #include "solver/model/behaviour.hpp"
 #include "solver/model/model.hpp"
-#include "solver/nonlinear/path_control.hpp"
+#include "solver/nonlinear/iterations/path_control.hpp"
 #include "solver/nonlinear/stability_analysis.hpp"
-#include "solver/nonlinear/step_sequence.hpp"
+#include "solver/nonlinear/steps/step_sequence.hpp"
 
 namespace comma::solver {
 
