@@ -6,7 +6,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
-#include "solver/elements/plate_axes.hpp"
+#include "solver/elements/plates/plate_axes.hpp"
 
 namespace comma::commands {
 

@@ -14,7 +14,7 @@
 #include "commands/tables/table.hpp"
 #include "interpreter/graph/concept.hpp"
 #include "solver/contact/definition.hpp"
-#include "solver/elements/section.hpp"
+#include "solver/elements/slender/section.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/fields/input_fields.hpp"
 #include "solver/functions/function.hpp"

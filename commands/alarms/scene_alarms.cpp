@@ -15,8 +15,8 @@
 #include "commands/concepts.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/elements/imposed_strains.hpp"
-#include "solver/elements/locking.hpp"
+#include "solver/elements/solids/imposed_strains.hpp"
+#include "solver/elements/solids/locking.hpp"
 #include "solver/materials/behaviour/hardening.hpp"
 
 namespace comma::commands {

@@ -14,8 +14,8 @@
 
 #include "commands/concepts.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/elements/imposed_strains.hpp"
-#include "solver/elements/plate_axes.hpp"
+#include "solver/elements/plates/plate_axes.hpp"
+#include "solver/elements/solids/imposed_strains.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/variable_fields.hpp"
 #include "solver/fields/variable_names.hpp"

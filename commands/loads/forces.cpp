@@ -10,7 +10,7 @@
 #include "commands/loads/load_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/elements/slender_forces.hpp"
+#include "solver/elements/slender/slender_forces.hpp"
 #include "solver/loads/end_effect.hpp"
 #include "solver/loads/plate_moments.hpp"
 

@@ -12,7 +12,7 @@
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/constraints/directions.hpp"
-#include "solver/elements/section.hpp"
+#include "solver/elements/slender/section.hpp"
 
 namespace comma::commands {
 

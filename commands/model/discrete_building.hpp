@@ -4,7 +4,7 @@
 #include <unordered_map>
 
 #include "interpreter/graph/call.hpp"
-#include "solver/elements/section.hpp"
+#include "solver/elements/slender/section.hpp"
 
 namespace comma::commands {
 

@@ -10,8 +10,8 @@
 #include "commands/concepts.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/elements/section_shapes.hpp"
-#include "solver/elements/varying_section.hpp"
+#include "solver/elements/slender/section_shapes.hpp"
+#include "solver/elements/slender/varying_section.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/place.hpp"
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "interpreter/graph/call.hpp"
-#include "solver/elements/section.hpp"
+#include "solver/elements/slender/section.hpp"
 
 namespace comma::commands {
 

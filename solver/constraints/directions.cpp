@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "solver/elements/cell_quadrature.hpp"
-#include "solver/elements/section.hpp"
-#include "solver/elements/slender_forces.hpp"
+#include "solver/elements/slender/section.hpp"
+#include "solver/elements/slender/slender_forces.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {

@@ -6,7 +6,7 @@
 
 #include "solver/contact/definition.hpp"
 #include "solver/contact/facet.hpp"
-#include "solver/elements/section.hpp"
+#include "solver/elements/slender/section.hpp"
 #include "solver/mesh/mesh.hpp"
 #include "solver/model/model.hpp"
 

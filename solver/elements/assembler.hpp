@@ -9,7 +9,7 @@
 
 #include <Eigen/Dense>
 
-#include "solver/elements/section.hpp"
+#include "solver/elements/slender/section.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/linear/linear_solver.hpp"
 #include "solver/linear/unsymmetric_solver.hpp"

@@ -7,7 +7,7 @@
 
 #include "solver/elements/assembler.hpp"
 #include "solver/elements/element_block.hpp"
-#include "solver/elements/imposed_strains.hpp"
+#include "solver/elements/solids/imposed_strains.hpp"
 #include "solver/elements/sparse_pattern.hpp"
 
 namespace comma::solver {

@@ -1,7 +1,7 @@
 // The elastic material of a cell as its formulation needs it.
 #pragma once
 
-#include "solver/elements/section.hpp"
+#include "solver/elements/slender/section.hpp"
 #include "solver/materials/elasticity.hpp"
 #include "solver/materials/material.hpp"
 #include "solver/model/model.hpp"

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "solver/elements/imposed_strains.hpp"
-#include "solver/elements/section.hpp"
+#include "solver/elements/slender/section.hpp"
+#include "solver/elements/solids/imposed_strains.hpp"
 #include "solver/elements/sparse_pattern.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/materials/elasticity.hpp"

@@ -1,6 +1,6 @@
 #include "solver/elements/energy_parts.hpp"
 
-#include "solver/elements/beam_stiffness.hpp"
+#include "solver/elements/slender/beam_stiffness.hpp"
 
 namespace comma::solver {
 

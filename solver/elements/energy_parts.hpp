@@ -6,7 +6,7 @@
 
 #include <Eigen/Dense>
 
-#include "solver/elements/section.hpp"
+#include "solver/elements/slender/section.hpp"
 
 namespace comma::solver {
 

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "solver/elements/inertia_forces.hpp"
-#include "solver/elements/plate_axes.hpp"
-#include "solver/elements/slender_forces.hpp"
+#include "solver/elements/plates/plate_axes.hpp"
+#include "solver/elements/slender/slender_forces.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/place.hpp"
 

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "solver/elements/cell_quadrature.hpp"
-#include "solver/elements/section.hpp"
+#include "solver/elements/slender/section.hpp"
 #include "solver/loads/load.hpp"
 #include "solver/materials/material.hpp"
 #include "solver/model/model.hpp"

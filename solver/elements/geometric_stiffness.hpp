@@ -5,7 +5,7 @@
 #include <array>
 #include <span>
 
-#include "solver/elements/beam_stiffness.hpp"
+#include "solver/elements/slender/beam_stiffness.hpp"
 #include "solver/elements/sparse_pattern.hpp"
 #include "solver/mesh/mesh.hpp"
 

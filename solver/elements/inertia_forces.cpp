@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/slender_forces.hpp"
-#include "solver/elements/varying_section.hpp"
+#include "solver/elements/slender/slender_forces.hpp"
+#include "solver/elements/slender/varying_section.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/place.hpp"
 

@@ -7,8 +7,8 @@
 #include <memory>
 #include <utility>
 
-#include "solver/elements/rotating_beam.hpp"
-#include "solver/elements/slender_forces.hpp"
+#include "solver/elements/slender/rotating_beam.hpp"
+#include "solver/elements/slender/slender_forces.hpp"
 #include "solver/fields/extrapolation.hpp"
 #include "solver/model/stress_names.hpp"
 

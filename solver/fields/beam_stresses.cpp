@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "solver/elements/geometric_stiffness.hpp"
-#include "solver/elements/varying_section.hpp"
+#include "solver/elements/slender/varying_section.hpp"
 #include "solver/error.hpp"
 #include "solver/model/stress_names.hpp"
 

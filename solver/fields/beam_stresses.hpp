@@ -2,7 +2,7 @@
 // U4.81.04).
 #pragma once
 
-#include "solver/elements/imposed_strains.hpp"
+#include "solver/elements/solids/imposed_strains.hpp"
 #include "solver/fields/continuum_points.hpp"
 #include "solver/fields/field.hpp"
 

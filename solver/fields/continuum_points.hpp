@@ -8,7 +8,7 @@
 #include <Eigen/Dense>
 
 #include "solver/elements/quadrature.hpp"
-#include "solver/elements/section.hpp"
+#include "solver/elements/slender/section.hpp"
 #include "solver/materials/elasticity.hpp"
 #include "solver/model/model.hpp"
 

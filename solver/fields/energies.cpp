@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "solver/elements/cell_quadrature.hpp"
-#include "solver/elements/hourglass.hpp"
+#include "solver/elements/solids/hourglass.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/plastic_points.hpp"
 #include "solver/fields/tensor_reader.hpp"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/rotating_beam.hpp"
+#include "solver/elements/slender/rotating_beam.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/beam_forces.hpp"
 #include "solver/fields/beam_stresses.hpp"

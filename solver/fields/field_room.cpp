@@ -9,9 +9,9 @@
 #include <string_view>
 #include <utility>
 
-#include "solver/elements/beam_points.hpp"
-#include "solver/elements/discrete_forces.hpp"
+#include "solver/elements/discrete/discrete_forces.hpp"
 #include "solver/elements/quadrature.hpp"
+#include "solver/elements/slender/beam_points.hpp"
 #include "solver/fields/field_rows.hpp"
 #include "solver/model/stress_names.hpp"
 

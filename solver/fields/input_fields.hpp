@@ -1,7 +1,7 @@
 // What a computation is given, seen as fields: the data of plates, the forces and pressures of a load.
 #pragma once
 
-#include "solver/elements/section.hpp"
+#include "solver/elements/slender/section.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/loads/load.hpp"
 

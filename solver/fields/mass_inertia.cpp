@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "solver/elements/quadrature.hpp"
-#include "solver/elements/varying_section.hpp"
+#include "solver/elements/slender/varying_section.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/axes.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/Dense>
 
-#include "solver/elements/section.hpp"
+#include "solver/elements/slender/section.hpp"
 #include "solver/fields/continuum_points.hpp"
 #include "solver/fields/field.hpp"
 

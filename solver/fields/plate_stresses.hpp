@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "solver/elements/section.hpp"
+#include "solver/elements/slender/section.hpp"
 #include "solver/fields/field.hpp"
 #include "solver/fields/plate_forces.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/beam_points.hpp"
 #include "solver/elements/quadrature.hpp"
+#include "solver/elements/slender/beam_points.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/reference_cell.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "solver/elements/imposed_strains.hpp"
+#include "solver/elements/solids/imposed_strains.hpp"
 #include "solver/error.hpp"
 #include "solver/linear/generalised_eigen.hpp"
 

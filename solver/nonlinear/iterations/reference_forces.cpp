@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "solver/contact/extent.hpp"
-#include "solver/elements/corner_unknowns.hpp"
 #include "solver/elements/quadrature.hpp"
+#include "solver/elements/solids/corner_unknowns.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/continuum_points.hpp"
 

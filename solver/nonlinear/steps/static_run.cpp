@@ -8,7 +8,7 @@
 
 #include "solver/contact/straight_faces.hpp"
 #include "solver/contact/watched_zones.hpp"
-#include "solver/elements/rotating_beam.hpp"
+#include "solver/elements/slender/rotating_beam.hpp"
 #include "solver/error.hpp"
 #include "solver/nonlinear/combinations.hpp"
 #include "solver/nonlinear/contact/carried_surfaces.hpp"

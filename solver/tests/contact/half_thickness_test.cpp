@@ -2,8 +2,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "solver/elements/section_shapes.hpp"
-#include "solver/elements/varying_section.hpp"
+#include "solver/elements/slender/section_shapes.hpp"
+#include "solver/elements/slender/varying_section.hpp"
 #include "solver/error.hpp"
 #include "solver/tests/exactly.hpp"
 

@@ -1,0 +1,364 @@
+#include "solver/elements/slender/inelastic_bar.hpp"
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "solver/elements/translation.hpp"
+#include "solver/error.hpp"
+#include "solver/materials/behaviour/von_mises.hpp"
+
+namespace comma::solver {
+
+namespace {
+
+constexpr std::array<std::string_view, 1> axial_force = {"N"};
+/// Of the stresses, what rounding leaves of an equation between them.
+constexpr double bar_rounding_share = 1e-14;
+constexpr int back_stress_size = 6;
+
+/// The bulk modulus may be infinite.
+double young_of(const PlasticModuli& moduli) { return 9.0 * moduli.shear / (3.0 + moduli.shear / moduli.bulk); }
+
+double ratio_or_one(double now, double before) { return before != 0.0 ? now / before : 1.0; }
+
+/// What the material is at an instant.
+struct BarMaterial {
+  PlasticPoint plastic;
+  double expansion = 0.0;  ///< strain of the command variables, and imposed one
+};
+
+/// A bar where a step begins, or at a trial.
+struct BarState {
+  double strain = 0.0;
+  double expansion = 0.0;  ///< as above
+  double stress = 0.0;
+  double back_stress = 0.0;
+  double p = 0.0;
+  double p_compression = 0.0;  ///< where compression hardens by itself
+  double flow = 0.0;           ///< by which p grew in the step that led here
+  bool flowing = false;
+  PlasticModuli moduli;
+};
+
+struct BarResponse {
+  BarState state;
+  double tangent;
+};
+
+BarResponse integrate(const BarState& past, const BarMaterial& now, double strain) {
+  const double young = young_of(now.plastic);
+  const double past_young = past.moduli.shear != 0.0 ? young_of(past.moduli) : 0.0;
+  const double increment = strain - past.strain - (now.expansion - past.expansion);
+  BarResponse response{past, young};
+  BarState& state = response.state;
+  state.strain = strain;
+  state.expansion = now.expansion;
+  state.moduli = now.plastic;
+  state.flow = 0.0;
+  state.flowing = false;
+  state.stress = ratio_or_one(young, past_young) * past.stress + young * increment;
+  state.back_stress = ratio_or_one(now.plastic.kinematic, past.moduli.kinematic) * past.back_stress;
+  if (std::holds_alternative<NoYield>(now.plastic.curve)) return response;
+  const double hardness = young + 1.5 * now.plastic.kinematic;
+  const double relative = state.stress - 1.5 * state.back_stress;
+  const double size = std::abs(relative);
+  const bool is_apart = relative < 0.0 && !std::holds_alternative<NoYield>(now.plastic.compression);
+  const HardeningCurve& curve = is_apart ? now.plastic.compression : now.plastic.curve;
+  double& p = is_apart ? state.p_compression : state.p;
+  const auto flow_tangent = [&] { return young - young * young / (hardness + hardening(curve, p).second); };
+  if (!(size > hardening(curve, p).first * (1.0 + bar_rounding_share))) {
+    // Nothing moves yet: what flowed in the last step is taken to flow on.
+    state.flowing = past.flowing && increment == 0.0;
+    if (state.flowing) response.tangent = flow_tangent();
+    return response;
+  }
+  const double flow = std::copysign(plastic_increment(curve, size, hardness, p), relative);
+  state.flow = std::abs(flow);
+  p += state.flow;
+  state.flowing = true;
+  state.stress -= young * flow;
+  state.back_stress += now.plastic.kinematic * flow;
+  response.tangent = flow_tangent();
+  return response;
+}
+
+/// A bar that has flowed in the last step goes on by the tangent of the flow (R5.03.81); `duration`: of this step, in
+/// those of the last one.
+BarResponse extrapolate_flow(const BarState& past, const BarMaterial& now, double strain, double duration) {
+  const double young = young_of(now.plastic);
+  const double slope = past.flow > 0.0 ? hardening(now.plastic.curve, past.p + duration * past.flow).second : 0.0;
+  BarResponse response{past, past.flow > 0.0 ? young * slope / (young + slope) : young};
+  response.state.strain = strain;
+  response.state.expansion = now.expansion;
+  const double past_young = past.moduli.shear != 0.0 ? young_of(past.moduli) : 0.0;
+  response.state.stress = ratio_or_one(young, past_young) * past.stress +
+                          response.tangent * (strain - past.strain - (now.expansion - past.expansion));
+  return response;
+}
+
+template <int Dim>
+class InelasticBar final : public ElementBlock {
+  static constexpr int size = 2 * Dim;
+  using Matrix = Eigen::Matrix<double, size, size>;
+  using Direction = Eigen::Matrix<double, Dim, 1>;
+
+ public:
+  InelasticBar(const BlockInput& input, std::vector<int> cells)
+      : mesh_(*input.model.mesh),
+        behaviour_(input.behaviour_of(cells.front())),
+        cells_(std::move(cells)),
+        map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), 2, gather_nodes(mesh_, cells_)),
+        past_(cells_.size()) {
+    for (const int cell : cells_) members_.push_back(member(input, cell));
+  }
+
+  void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                     double* values) const override {
+    for (int element = 0; element < map_.element_count(); ++element)
+      map_.add(element, matrix(element, respond(element, u, state).tangent).data(), column_starts, values);
+  }
+  void add_elastic_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts,
+                             double* values) const override {
+    for (int element = 0; element < map_.element_count(); ++element)
+      map_.add(element, matrix(element, young_of(material(element, state).plastic)).data(), column_starts, values);
+  }
+
+  void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
+    for (int element = 0; element < map_.element_count(); ++element)
+      add_force(element, members_[static_cast<std::size_t>(element)].area * respond(element, u, state).state.stress,
+                forces);
+  }
+  void add_variable_forces(const Eigen::VectorXd&, const VariableState& state, ForceSum forces) const override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const BarMaterial now = material(element, state);
+      add_force(element, members_[static_cast<std::size_t>(element)].area * young_of(now.plastic) * now.expansion,
+                forces);
+    }
+  }
+  void add_forces_of_stresses(const Eigen::VectorXd&, const VariableState&, std::span<const double> reported,
+                              ForceSum forces) const override {
+    for (int element = 0; element < map_.element_count(); ++element)
+      add_force(element, reported[static_cast<std::size_t>(element)], forces);
+  }
+  void add_initial_stress_forces(std::span<const double> stresses, ForceSum forces) const override {
+    for (int element = 0; element < map_.element_count(); ++element)
+      if (const double force = stresses[static_cast<std::size_t>(element)]; !std::isnan(force))
+        add_force(element, force, forces);
+  }
+
+  std::span<const int> cells() const override { return cells_; }
+  int point_count() const override { return 1; }
+  std::span<const std::string_view> stress_names() const override { return axial_force; }
+  bool is_linear() const override { return false; }
+  bool is_elastically_linear() const override { return true; }
+  bool is_constant() const override {
+    return std::ranges::all_of(members_, [](const Member& each) { return each.constant; });
+  }
+  bool has_memory() const override { return true; }
+  void extrapolate(std::optional<double> duration) override {
+    if (duration && (behaviour_.relation == Relation::kinematic_linear || is_mixed() || is_asymmetric()))
+      throw Error("unsupported",
+                  "METHODE='IMPLEX' extrapolates ELAS, VMIS_ISOT_LINE, VMIS_ISOT_TRAC and VMIS_ISOT_PUIS of bars alone",
+                  "take METHODE='NEWTON'");
+    extrapolation_ = duration;
+  }
+
+  void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    for (int element = 0; element < map_.element_count(); ++element)
+      out[static_cast<std::size_t>(element)] =
+          members_[static_cast<std::size_t>(element)].area * respond(element, u, state).state.stress;
+  }
+
+  int variable_count() const override {
+    if (behaviour_.relation == Relation::elastic) return 1;
+    if (behaviour_.relation == Relation::kinematic_linear) return back_stress_size + 1;
+    if (is_asymmetric()) return 4;
+    return is_mixed() ? 2 + back_stress_size : 2;
+  }
+  void variables(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    std::ranges::fill(out, 0.0);
+    if (behaviour_.relation == Relation::elastic) return;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const BarState reached = respond(element, u, state).state;
+      const auto of_element = out.subspan(static_cast<std::size_t>(element * variable_count()));
+      of_element[place_of_flow(reached.stress)] = reached.flowing ? 1.0 : 0.0;
+      if (is_asymmetric()) of_element[2] = reached.p_compression;
+      if (behaviour_.relation != Relation::kinematic_linear) of_element[0] = reached.p;
+      if (moves_centre()) of_element[place_of_back_stress()] = shown_back_stress() * reached.back_stress;
+    }
+  }
+
+  void energies(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const Member& own = members_[static_cast<std::size_t>(element)];
+      const BarState reached = respond(element, u, state).state;
+      out[static_cast<std::size_t>(element)] =
+          own.length * own.area * reached.stress * reached.stress / (2.0 * young_of(reached.moduli));
+    }
+  }
+  void energy_densities(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>,
+                        std::span<double> out) const override {
+    std::ranges::fill(out, absent);
+  }
+
+  void accept(const Eigen::VectorXd& u, const VariableState& state) override {
+    for (int element = 0; element < map_.element_count(); ++element)
+      past_[static_cast<std::size_t>(element)] = respond(element, u, state).state;
+  }
+
+  void resume(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported,
+              std::span<const double> variables) override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const auto index = static_cast<std::size_t>(element);
+      const BarMaterial now = material(element, state);
+      BarState& past = past_[index];
+      past = BarState{};
+      past.strain = strain(element, u);
+      past.expansion = now.expansion;
+      past.moduli = now.plastic;
+      if (!reported.empty()) past.stress = reported[index] / members_[index].area;
+      if (variables.empty() || behaviour_.relation == Relation::elastic) continue;
+      const auto of_element = variables.subspan(index * static_cast<std::size_t>(variable_count()));
+      past.flowing = of_element[place_of_flow(past.stress)] > 0.5;
+      if (is_asymmetric()) past.p_compression = of_element[2];
+      if (behaviour_.relation != Relation::kinematic_linear) past.p = of_element[0];
+      if (moves_centre()) past.back_stress = of_element[place_of_back_stress()] / shown_back_stress();
+    }
+  }
+
+  void impose(const ImposedStrains* strains) override { imposed_ = strains; }
+  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
+    for (const int cell : cells_)
+      if (imposed.acts_on(cell)) check_known_to_law(imposed_, mesh_, cell);
+  }
+
+ private:
+  struct Member {
+    Direction along;
+    double length;
+    double area;
+    const IsotropicElasticity* elasticity;
+    const Plasticity* plasticity;
+    bool constant;
+  };
+
+  bool is_mixed() const {
+    return behaviour_.relation == Relation::mixed_linear || behaviour_.relation == Relation::mixed_traction;
+  }
+  bool is_asymmetric() const { return behaviour_.relation == Relation::asymmetric_linear; }
+  std::size_t place_of_flow(double stress) const { return is_asymmetric() && stress < 0.0 ? 3 : 1; }
+  bool moves_centre() const { return behaviour_.relation == Relation::kinematic_linear || is_mixed(); }
+  std::size_t place_of_back_stress() const { return is_mixed() ? 2 : 0; }
+  /// Kinematic hardening alone shows X of |stress - X| <= SY (R5.03.09), both together that of the tensor.
+  double shown_back_stress() const { return is_mixed() ? 1.0 : 1.5; }
+
+  Member member(const BlockInput& input, int cell) const {
+    const auto found = input.properties.sections.find(cell);
+    if (found == input.properties.sections.end()) {
+      throw Error("missing-properties",
+                  fmt::format("the bar or beam on cell {} has no cross-section", mesh_.cell_name(cell)));
+    }
+    if (!(found->second.area > 0.0)) {
+      throw Error("invalid-properties",
+                  fmt::format("the cross-section of cell {} needs a positive area", mesh_.cell_name(cell)));
+    }
+    const auto nodes = mesh_.cell(cell);
+    Direction way;
+    for (int c = 0; c < Dim; ++c)
+      way[c] = mesh_.nodes[static_cast<std::size_t>(nodes[1])][static_cast<std::size_t>(c)] -
+               mesh_.nodes[static_cast<std::size_t>(nodes[0])][static_cast<std::size_t>(c)];
+    const IsotropicElasticity& elasticity = isotropic_material(input, cell);
+    const Plasticity& plasticity = input.materials.by_cell[static_cast<std::size_t>(cell)]->plasticity;
+    return {way.normalized(), way.norm(),  found->second.area,
+            &elasticity,      &plasticity, solver::is_constant(elasticity, plasticity, behaviour_.relation)};
+  }
+
+  /// Command variables count by their mean over the two nodes. An error says in which cell.
+  BarMaterial material(int element, const VariableState& state) const {
+    const auto index = static_cast<std::size_t>(element);
+    const Member& own = members_[index];
+    try {
+      constexpr std::array<double, 2> middle = {0.5, 0.5};
+      const auto nodes = map_.nodes(element);
+      MaterialPoint at;
+      state.sample(cells_[index], nodes, middle, VariableState::all_points, at);
+      const Point &first = mesh_.nodes[static_cast<std::size_t>(nodes[0])],
+                  &second = mesh_.nodes[static_cast<std::size_t>(nodes[1])];
+      const Eigen::Vector3d centre =
+          0.5 * (Eigen::Map<const Eigen::Vector3d>(first.data()) + Eigen::Map<const Eigen::Vector3d>(second.data()));
+      at.place({centre[0], centre[1], centre[2]});
+      const double imposed = imposed_ ? imposed_->slender(cells_[index], centre)[0] : 0.0;
+      return {plastic_point(*own.elasticity, *own.plasticity, behaviour_.relation, at),
+              imposed + (state.empty() ? 0.0 : inelastic_axial_strain(*own.elasticity, at))};
+    } catch (const Error& error) {
+      throw Error(error.code(), fmt::format("{} (cell {})", error.what(), mesh_.cell_name(cells_[index])),
+                  error.hint());
+    }
+  }
+
+  double strain(int element, const Eigen::VectorXd& u) const {
+    std::array<int, size> dofs;
+    map_.dofs(element, dofs.data());
+    const Member& own = members_[static_cast<std::size_t>(element)];
+    double elongation = 0.0;
+    for (int c = 0; c < Dim; ++c)
+      elongation += own.along[c] * (u[dofs[static_cast<std::size_t>(Dim + c)]] - u[dofs[static_cast<std::size_t>(c)]]);
+    return elongation / own.length;
+  }
+
+  BarResponse respond(int element, const Eigen::VectorXd& u, const VariableState& state) const {
+    const BarState& past = past_[static_cast<std::size_t>(element)];
+    if (extrapolation_) return extrapolate_flow(past, material(element, state), strain(element, u), *extrapolation_);
+    return integrate(past, material(element, state), strain(element, u));
+  }
+
+  Matrix matrix(int element, double tangent) const {
+    const Member& own = members_[static_cast<std::size_t>(element)];
+    const Eigen::Matrix<double, Dim, Dim> block = tangent * own.area / own.length * (own.along * own.along.transpose());
+    Matrix k;
+    k << block, -block, -block, block;
+    std::array<bool, Dim> invariant;
+    invariant.fill(true);
+    make_translation_exact<2, Dim>(k, invariant);
+    return k;
+  }
+
+  void add_force(int element, double force, ForceSum forces) const {
+    std::array<int, size> dofs;
+    map_.dofs(element, dofs.data());
+    const Direction& along = members_[static_cast<std::size_t>(element)].along;
+    for (int c = 0; c < Dim; ++c) {
+      forces[static_cast<std::size_t>(dofs[static_cast<std::size_t>(c)])] -= force * along[c];
+      forces[static_cast<std::size_t>(dofs[static_cast<std::size_t>(Dim + c)])] += force * along[c];
+    }
+  }
+
+  const Mesh& mesh_;
+  CellBehaviour behaviour_;
+  std::vector<int> cells_;
+  ElementMap map_;
+  std::vector<Member> members_;
+  std::vector<BarState> past_;
+  std::optional<double> extrapolation_;
+  const ImposedStrains* imposed_ = nullptr;
+};
+
+}  // namespace
+
+std::unique_ptr<ElementBlock> make_inelastic_bar_block(const BlockInput& input, std::vector<int> cells) {
+  const CellBehaviour behaviour = input.behaviour_of(cells.front());
+  if (behaviour.relation == Relation::hyperelastic || behaviour.kinematics != Kinematics::small) {
+    throw Error("unsupported",
+                fmt::format("cell {}: bars flow in small strains, by von Mises' criterion",
+                            input.model.mesh->cell_name(cells.front())),
+                "give these cells DEFORMATION='PETIT' and RELATION='ELAS' or 'VMIS_...'");
+  }
+  if (input.model.formulations[static_cast<std::size_t>(cells.front())] == Formulation::bar_2d)
+    return std::make_unique<InelasticBar<2>>(input, std::move(cells));
+  return std::make_unique<InelasticBar<3>>(input, std::move(cells));
+}
+
+}  // namespace comma::solver
