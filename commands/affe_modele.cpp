@@ -139,6 +139,26 @@ void warn_of_skin_alone(const Keywords& assignment, const solver::Model& model, 
       assignment.span_of("MODELISATION"), fitting_modelisations(assignment, *model.mesh));
 }
 
+// Cells that no AFFE has an element for stay out of the model.
+void warn_of_cells_without_element(const Keywords& assignment, const solver::Model& model, Context& context) {
+  const std::string modelisation = assignment.texts("MODELISATION").front();
+  const int dimension = body_dimension(formulations().at(modelisation));
+  std::vector<int> left = selected_cells(assignment, *model.mesh);
+  std::erase_if(left, [&](int cell) {
+    return cell_dimension(*model.mesh, cell) != dimension ||
+           model.formulations[static_cast<std::size_t>(cell)] != Formulation::none;
+  });
+  if (left.empty()) return;
+  context.diagnostics.alarm(
+      "cells-without-element",
+      fmt::format(
+          "AFFE_MODELE: {} has no element on {} of these cells, such as {} ({}): they are not part of the model",
+          modelisation, left.size(), model.mesh->cell_name(left.front()),
+          solver::name_of(model.mesh->cell_types[static_cast<std::size_t>(left.front())])),
+      assignment.span_of("MODELISATION"),
+      "give all cells another modelisation in an occurrence of AFFE before this one, such as D_PLAN beside D_PLAN_SI");
+}
+
 }  // namespace
 
 Product affe_modele(const Call& call, Context& context) {
@@ -164,7 +184,10 @@ Product affe_modele(const Call& call, Context& context) {
           assignment.span, fitting_modelisations(assignment, mesh));
     }
   }
-  for (const Keywords& assignment : call.factors("AFFE")) warn_of_skin_alone(assignment, *model, context);
+  for (const Keywords& assignment : call.factors("AFFE")) {
+    warn_of_skin_alone(assignment, *model, context);
+    warn_of_cells_without_element(assignment, *model, context);
+  }
   if (call.text("VERI_PLAN") == "OUI") warn_of_warped_plates(call, *model, context);
   auto product = std::make_shared<ModelConcept>();
   product->model = std::move(model);

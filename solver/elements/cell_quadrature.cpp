@@ -39,7 +39,15 @@ CellPoint locate(const Mesh& mesh, int cell, const CellSample& sample) {
 }
 
 const std::vector<CellSample>& CellSamples::of(CellType type, CellRole role) {
-  return of_family(type, role == CellRole::body ? mass_family(type) : boundary_family(type));
+  switch (role) {
+    case CellRole::body:
+      return of_family(type, mass_family(type));
+    case CellRole::skin:
+      return of_family(type, boundary_family(type));
+    case CellRole::edge:
+      return of_family(type, edge_family(type));
+  }
+  return of_family(type, mass_family(type));
 }
 
 const std::vector<CellSample>& CellSamples::of_stiffness(CellType type, Formulation formulation) {

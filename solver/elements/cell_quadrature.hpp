@@ -14,8 +14,9 @@
 
 namespace comma::solver {
 
-/// Which family of R3.01.01 integrates over a cell: its own as part of a body, or that of a skin.
-enum class CellRole : std::uint8_t { body, skin };
+/// Which family of R3.01.01 integrates over a cell: its own as part of a body, that of a skin, or of the edge of a
+/// solid.
+enum class CellRole : std::uint8_t { body, skin, edge };
 
 /// Values of the shape functions (one a node) and their derivatives (node x dimension) at a point of the reference
 /// cell.

@@ -183,7 +183,11 @@ class CellIntegrator {
     return 0.0;
   }
 
-  const std::vector<CellSample>& of_skin(int cell) { return samples_.of(mesh_.cell_types[cell], CellRole::skin); }
+  const std::vector<CellSample>& of_skin(int cell) {
+    const bool is_edge = dimension(mesh_.cell_types[cell]) == 1 && input_.model.is_skin(cell) &&
+                         continuum_dimension(input_.model.formulations[cell]) == 3;
+    return samples_.of(mesh_.cell_types[cell], is_edge ? CellRole::edge : CellRole::skin);
+  }
 
   /// `density`(point, sample): force for a unit of reference measure at a point.
   template <class F>

@@ -404,4 +404,6 @@ std::string_view boundary_family(CellType type) {
   }
 }
 
+std::string_view edge_family(CellType type) { return type == CellType::seg2 ? "FPG2" : "FPG3"; }
+
 }  // namespace comma::solver

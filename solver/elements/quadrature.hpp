@@ -34,5 +34,7 @@ std::string_view plate_family(CellType type);
 std::string_view mass_family(CellType type);
 /// The family of pressures and other forces on a skin cell.
 std::string_view boundary_family(CellType type);
+/// The family of forces on the edge of a solid (FORCE_ARETE; step functions on SEG3 tell its points).
+std::string_view edge_family(CellType type);
 
 }  // namespace comma::solver

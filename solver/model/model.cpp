@@ -1,6 +1,7 @@
 #include "solver/model/model.hpp"
 
 #include <algorithm>
+#include <initializer_list>
 
 namespace comma::solver {
 
@@ -46,6 +47,35 @@ ComponentMask components_of_formulation(Formulation formulation) {
   return 0;
 }
 
+/// Of a body, as Code_Aster 17.3 has them.
+bool has_body(Formulation formulation, CellType type) {
+  const auto is_among = [&](std::initializer_list<CellType> types) {
+    return std::ranges::find(types, type) != types.end();
+  };
+  using enum CellType;
+  switch (formulation) {
+    case Formulation::solid_reduced:
+      return is_among({hexa8, hexa20, tetra10});
+    case Formulation::plane_strain_reduced:
+    case Formulation::plane_stress_reduced:
+      return is_among({quad4, quad8});
+    case Formulation::axisymmetric_reduced:
+      return type == quad8;
+    case Formulation::solid_pressure:
+      return is_among({tetra4, tetra10, penta15, hexa20});
+    case Formulation::plane_strain_pressure:
+    case Formulation::axisymmetric_pressure:
+      return is_among({tria3, tria6, quad8});
+    case Formulation::solid_swelling:
+      return is_among({tetra10, penta15, hexa20});
+    case Formulation::plane_strain_swelling:
+    case Formulation::axisymmetric_swelling:
+      return is_among({tria6, quad8});
+    default:
+      return true;
+  }
+}
+
 }  // namespace
 
 bool is_discrete(Formulation formulation) {
@@ -78,7 +108,8 @@ int continuum_dimension(Formulation formulation) {
 
 bool has_element(Formulation formulation, CellType type) {
   const int continuum = continuum_dimension(formulation);
-  if (continuum > 0) return dimension(type) > 0 && dimension(type) <= continuum;
+  if (continuum > 0 && dimension(type) == continuum) return has_body(formulation, type);
+  if (continuum > 0) return dimension(type) > 0 && dimension(type) < continuum;
   if (is_plate(formulation)) return type == CellType::tria3 || type == CellType::quad4 || type == CellType::seg2;
   if (is_discrete(formulation)) return type == CellType::poi1 || type == CellType::seg2;
   return formulation != Formulation::none && type == CellType::seg2;

@@ -229,7 +229,7 @@ DiscreteMass rigid_mass(const Mesh& mesh, int cell, Formulation formulation, con
   const Eigen::MatrixXd node = full(kept, kept);
   if (!segment) return node;
   DiscreteMass result = DiscreteMass::Zero(2 * k, 2 * k);
-  result.topLeftCorner(k, k) = result.bottomRightCorner(k, k) = 0.5 * node;
+  result.topLeftCorner(k, k) = result.bottomRightCorner(k, k) = node;
   return result;
 }
 

@@ -131,8 +131,8 @@ struct PlateSection {
 /// The mass matrix of a discrete element in global axes, of the size of its stiffness.
 using DiscreteMass = Eigen::MatrixXd;
 
-/// A rigid body: on a point at an offset from it, on a segment (without offset) half of it at each end, as M_T_D_N,
-/// M_TR_D_N, M_T_D_L and M_TR_D_L of U4.42.01. Offset and tensor are in the axes of `frame`.
+/// A rigid body: on a point at an offset from it, on a segment (without offset) one at each end (so in Code_Aster
+/// 17.3), as M_T_D_N, M_TR_D_N, M_T_D_L and M_TR_D_L of U4.42.01. Offset and tensor are in the axes of `frame`.
 struct DiscreteInertia {
   double mass = 0.0;
   Eigen::Matrix3d tensor = Eigen::Matrix3d::Zero();  ///< about the centre of mass; used where the element has rotations

@@ -156,6 +156,25 @@ TEST_CASE("a force in a body that is a function is integrated where the stresses
   }
 }
 
+TEST_CASE("a force on the edge of a solid that is a function is integrated at three points of a SEG3", "[loads]") {
+  const Body body(with_skin(CellType::hexa20, 0.0), Formulation::solid, elastic(1.0, 0.3));
+  const Mesh& mesh = *body.model.mesh;
+  const int edge = mesh.cell_count() - 1;
+  REQUIRE(mesh.cell_types[static_cast<std::size_t>(edge)] == CellType::seg3);
+  const auto end = [&](std::size_t k) {
+    return Eigen::Vector3d(mesh.nodes[static_cast<std::size_t>(mesh.cell(edge)[k])].data());
+  };
+  const Eigen::Vector3d middle = 0.5 * (end(0) + end(1)), half = 0.5 * (end(1) - end(0));
+  // Of a degree that three points do not integrate exactly: 0.24 in place of 2/7 on a length of 2.
+  const auto density = [&](const Point& x, double) {
+    return std::pow((Eigen::Vector3d(x.data()) - middle).dot(half) / half.squaredNorm(), 6);
+  };
+  auto load = std::make_shared<Load>();
+  load->distributed_forces.push_back({edge, {}, {density, {}, {}}});
+  CHECK(resultant(body, body.assembler->external_forces(std::vector<AppliedLoad>{{load, {}}}, 0.0))[0] ==
+        Approx(0.24 * half.norm()).epsilon(1e-12));
+}
+
 TEST_CASE("pressure on a cell that is no skin is refused", "[loads]") {
   const Body body(single_cell(CellType::tria3), Formulation::plane_strain, elastic(1.0, 0.3));
   auto load = std::make_shared<Load>();

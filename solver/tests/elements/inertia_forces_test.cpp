@@ -170,8 +170,8 @@ TEST_CASE("discrete masses weigh: points, segments, and one beside its node", "[
                     Catch::Contains("offset"));
   const Body body(mesh, std::vector{formulation, formulation}, nullptr, properties);
   const Eigen::VectorXd forces = body.assembler->external_forces(applied(gravity({0, 1}, {0.0, 0.0, -10.0})), 0.0);
-  CHECK(forces[body.dofs->dof(0, Component::dz)] == exactly(-50.0));
-  CHECK(forces[body.dofs->dof(1, Component::dz)] == exactly(-20.0));
+  CHECK(forces[body.dofs->dof(0, Component::dz)] == exactly(-70.0));
+  CHECK(forces[body.dofs->dof(1, Component::dz)] == exactly(-40.0));
   CHECK(forces[body.dofs->dof(0, Component::drx)] == exactly(-15.0));  // weight 30 at y = 0.5
   CHECK(forces[body.dofs->dof(1, Component::drx)] == 0.0);
 }

@@ -139,8 +139,9 @@ TEST_CASE("mixed elements say which cells and strains they do not know") {
   const auto make = [](CellType type, Formulation formulation, CellBehaviour behaviour) {
     Cell({type, formulation}, behaviour);
   };
-  CHECK_THROWS_WITH(make(CellType::hexa8, Formulation::solid_swelling, {}), Catch::Contains("HEXA8"));
-  CHECK_THROWS_WITH(make(CellType::quad9, Formulation::plane_strain_pressure, {}), Catch::Contains("QUAD9"));
+  CHECK_FALSE(has_element(Formulation::solid_swelling, CellType::hexa8));
+  CHECK_FALSE(has_element(Formulation::plane_strain_pressure, CellType::quad9));
+  CHECK_THROWS_WITH(make(CellType::tetra4, Formulation::solid_pressure, {}), Catch::Contains("TETRA4"));
   CHECK_THROWS_WITH(
       make(CellType::hexa20, Formulation::solid_pressure, {Kinematics::multiplicative, Relation::isotropic_linear}),
       Catch::Contains("multiplicative"));
