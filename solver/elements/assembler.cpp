@@ -127,6 +127,10 @@ SymmetricMatrix Assembler::elastic_stiffness(const Eigen::VectorXd& u) const {
   return blocks_->sum(&ElementBlock::add_elastic_stiffness, u, state_);
 }
 
+SymmetricMatrix Assembler::initial_stiffness(const Eigen::VectorXd& u) const {
+  return blocks_->sum(&ElementBlock::add_initial_stiffness, u, state_);
+}
+
 SymmetricMatrix Assembler::starting_stiffness(const Eigen::VectorXd& u) const {
   return blocks_->sum(&ElementBlock::add_starting_stiffness, u, state_);
 }
@@ -274,8 +278,8 @@ bool Assembler::is_linear() const {
   return std::all_of(blocks_->list.begin(), blocks_->list.end(), [](const auto& block) { return block->is_linear(); });
 }
 
-bool Assembler::is_elastically_linear() const {
-  return std::ranges::all_of(blocks_->list, [](const auto& block) { return block->is_elastically_linear(); });
+bool Assembler::is_initially_linear() const {
+  return std::ranges::all_of(blocks_->list, [](const auto& block) { return block->is_initially_linear(); });
 }
 
 ElementField Assembler::stresses(const Eigen::VectorXd& u) const { return stresses(u, nullptr); }

@@ -60,6 +60,9 @@ class Assembler {
   /// The same as if materials could only answer elastically from where they are.
   SymmetricMatrix elastic_stiffness(const Eigen::VectorXd& u) const;
 
+  /// The same as ELASTIQUE of Code_Aster has it (ElementBlock::add_initial_stiffness).
+  SymmetricMatrix initial_stiffness(const Eigen::VectorXd& u) const;
+
   /// Lower triangle of what the stresses at u, less those of the strains that impose_strains() has given, add to the
   /// stiffness of small displacements from there (initial stress stiffness, R7.05.01). Throws Error `unsupported` where
   /// an element knows none.
@@ -140,8 +143,8 @@ class Assembler {
 
   /// Whether the tangent is the same for every u.
   bool is_linear() const;
-  /// Whether elastic_stiffness() is the same for every u.
-  bool is_elastically_linear() const;
+  /// Whether initial_stiffness() is the same for every u.
+  bool is_initially_linear() const;
   /// Changes whenever the stiffness at a given u may have changed: with each set_time if properties depend on command
   /// variables or time, else never.
   int stiffness_version() const { return version_; }

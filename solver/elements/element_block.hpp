@@ -48,6 +48,12 @@ class ElementBlock {
                                      std::span<const int> column_starts, double* values) const {
     add_stiffness(u, state, column_starts, values);
   }
+  /// What Code_Aster 17.3 takes for an elastic tangent: in solids that of small strains on the initial geometry,
+  /// without stresses, whatever the strains are.
+  virtual void add_initial_stiffness(const Eigen::VectorXd& u, const VariableState& state,
+                                     std::span<const int> column_starts, double* values) const {
+    add_elastic_stiffness(u, state, column_starts, values);
+  }
   /// The tangent and the internal forces from which a step starts, nothing having moved yet (PointLaw::begin).
   virtual void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state,
                                       std::span<const int> column_starts, double* values) const {
@@ -110,6 +116,8 @@ class ElementBlock {
   virtual bool is_linear() const = 0;
   /// Whether add_elastic_stiffness() is the same for every u.
   virtual bool is_elastically_linear() const { return is_linear(); }
+  /// The same of add_initial_stiffness().
+  virtual bool is_initially_linear() const { return is_elastically_linear(); }
   /// Whether the stiffness is the same in all states.
   virtual bool is_constant() const = 0;
 

@@ -68,9 +68,12 @@ bool is_stability_due(const StabilityAnalysis& analysis, double instant, int num
   });
 }
 
-StabilityReport critical_modes(const StabilityAnalysis& analysis, double instant, const Eigen::VectorXd& u,
-                               const Assembler& assembler, const Elimination& elimination, const DofMap& dofs) {
-  const SymmetricMatrix stiffness = elimination.reduce(assembler.stiffness(u));
+StabilityReport critical_modes(const StabilityAnalysis& analysis, TangentKind kind, double instant,
+                               const Eigen::VectorXd& u, const Assembler& assembler, const Elimination& elimination,
+                               const DofMap& dofs) {
+  const bool is_elastic = kind == TangentKind::elastic, is_symmetric = is_elastic || assembler.is_symmetric();
+  const SymmetricMatrix stiffness =
+      elimination.reduce(is_elastic ? assembler.initial_stiffness(u) : assembler.stiffness(u));
   const SymmetricMatrix other =
       analysis.geometric ? SymmetricMatrix(-SymmetricMatrix(elimination.reduce(assembler.geometric_stiffness(u))))
                          : SymmetricMatrix(-participation(analysis, elimination, dofs));
@@ -78,8 +81,8 @@ StabilityReport critical_modes(const StabilityAnalysis& analysis, double instant
   report.instant = instant;
   if (other.nonZeros() == 0) return report;
   SkewMatrix skew;
-  if (!assembler.is_symmetric()) skew = elimination.reduce_skew(assembler.skew_stiffness(u));
-  const Pencil pencil{stiffness, assembler.is_symmetric() ? nullptr : &skew, other};
+  if (!is_symmetric) skew = elimination.reduce_skew(assembler.skew_stiffness(u));
+  const Pencil pencil{stiffness, is_symmetric ? nullptr : &skew, other};
   const EigenPairs pairs = analysis.selection == ModeSelection::band
                                ? eigenvalues_between(pencil, analysis.first, analysis.last)
                                : smallest_eigenvalues(pencil, analysis.count);

@@ -67,7 +67,8 @@ struct StaticProblem {
 enum class TangentKind : std::uint8_t {
   tangent,   ///< of what the material does
   starting,  ///< the same where a step starts (Assembler::starting_stiffness)
-  elastic    ///< as if it could only answer elastically
+  elastic,   ///< ELASTIQUE (Assembler::initial_stiffness)
+  unloading  ///< as if it could only answer elastically from where it is
 };
 
 /// Which one the first iteration takes, nothing having moved yet.

@@ -37,6 +37,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
 
   bool is_linear() const override { return law_.is_linear(); }
   bool is_elastically_linear() const override { return !law_.is_large(); }
+  bool is_initially_linear() const override { return true; }
   bool has_memory() const override { return true; }
 
   void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
@@ -55,6 +56,13 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                              double* values) const override {
     assemble(u, state, column_starts, values, &PointLaw::respond_elastically);
+  }
+  void add_initial_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                             double* values) const override {
+    if (law_.is_large())
+      Base::add_stiffness(u, state, column_starts, values);
+    else
+      add_elastic_stiffness(u, state, column_starts, values);
   }
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {

@@ -36,6 +36,12 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     add_tangents(u, state, state, column_starts, values);
   }
 
+  void add_initial_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                             double* values) const override {
+    Base::add_stiffness(u, state, column_starts, values);
+  }
+  bool is_initially_linear() const override { return true; }
+
   /// Where a step begins, what the command variables have changed pushes on the initial geometry, and what stresses add
   /// to the tangent is as it was: Code_Aster 17.3 takes both so.
   void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,

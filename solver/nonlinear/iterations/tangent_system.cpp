@@ -39,6 +39,8 @@ void subtract_symmetric_half(const Eigen::SparseMatrix<double>& change, Symmetri
   }
 }
 
+bool is_elastic(TangentKind kind) { return kind == TangentKind::elastic || kind == TangentKind::unloading; }
+
 }  // namespace
 
 bool is_tangent_due(const TangentPolicy& policy, const TangentSystem& tangent, int iteration, int steps) {
@@ -61,7 +63,7 @@ TangentSystem::TangentSystem(const Model& model, const DofMap& dofs, const Assem
 bool TangentSystem::is_known(TangentKind kind) const {
   if (!factorised_ || version_ != assembler_.stiffness_version()) return false;
   return is_constant() ||
-         (!followers_ && kind == TangentKind::elastic && kind_ == kind && assembler_.is_elastically_linear());
+         (!followers_ && kind == TangentKind::elastic && kind_ == kind && assembler_.is_initially_linear());
 }
 
 bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
@@ -78,7 +80,7 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
     else
       factorise(reduced, elimination_.reduce_skew(skew_half));
   } catch (const Error& error) {
-    if (error.code() == "singular-matrix" && kind != TangentKind::elastic && is_held_elastically(u))
+    if (error.code() == "singular-matrix" && !is_elastic(kind) && is_held_elastically(u))
       throw Error(
           error.code(),
           std::string("the bodies are held, but flow so that nothing resists the loads any more; ") + error.what(),
@@ -92,7 +94,7 @@ bool TangentSystem::refresh(const Eigen::VectorXd& u, TangentKind kind) {
 /// Whether the elastic stiffness has a factor where the tangent has none.
 bool TangentSystem::is_held_elastically(const Eigen::VectorXd& u) {
   if (assembler_.is_linear() || !solver_ || !has_pivots(solver_->method())) return false;
-  return factorise_with(solver_->method(), assembled(u, TangentKind::elastic)).verdict != FactorVerdict::singular;
+  return factorise_with(solver_->method(), assembled(u, TangentKind::unloading)).verdict != FactorVerdict::singular;
 }
 
 void TangentSystem::forget() {
@@ -112,10 +114,20 @@ bool TangentSystem::spring_weak_supports() {
 }
 
 SymmetricMatrix TangentSystem::stiffness(const Eigen::VectorXd& u, TangentKind kind) const {
-  SymmetricMatrix whole = kind == TangentKind::elastic    ? assembler_.elastic_stiffness(u)
-                          : kind == TangentKind::starting ? assembler_.starting_stiffness(u)
-                          : stays_symmetric_              ? assembler_.symmetric_stiffness(u)
-                                                          : assembler_.stiffness(u);
+  const auto of_bodies = [&] {
+    switch (kind) {
+      case TangentKind::elastic:
+        return assembler_.initial_stiffness(u);
+      case TangentKind::unloading:
+        return assembler_.elastic_stiffness(u);
+      case TangentKind::starting:
+        return assembler_.starting_stiffness(u);
+      case TangentKind::tangent:
+        break;
+    }
+    return stays_symmetric_ ? assembler_.symmetric_stiffness(u) : assembler_.stiffness(u);
+  };
+  SymmetricMatrix whole = of_bodies();
   if (followers_) subtract_symmetric_half(followers_->tangent(u), whole);
   return whole;
 }
@@ -190,7 +202,7 @@ std::string TangentSystem::unheld_beside(const RowMatrix& held) const {
 std::string TangentSystem::parts_on_springs(const RowMatrix* held) const {
   std::vector<int> rows;
   for (const auto& spring : springs_) rows.push_back(spring.first);
-  const TangentKind kind = is_constant() ? TangentKind::tangent : TangentKind::elastic;
+  const TangentKind kind = is_constant() ? TangentKind::tangent : TangentKind::unloading;
   const SymmetricMatrix reduced = elimination_.reduce(stiffness(Eigen::VectorXd::Zero(dofs_.size()), kind));
   return describe(find_free_parts(*model_.mesh, dofs_, elimination_, reduced, rows, linear_.singular_digits, held),
                   *model_.mesh);
@@ -198,8 +210,7 @@ std::string TangentSystem::parts_on_springs(const RowMatrix* held) const {
 
 /// The skew half of the tangent, by its strictly lower triangle.
 SkewMatrix TangentSystem::skew(const Eigen::VectorXd& u, TangentKind kind) const {
-  SkewMatrix matrix =
-      kind == TangentKind::elastic ? assembler_.elastic_skew_stiffness(u) : assembler_.skew_stiffness(u);
+  SkewMatrix matrix = is_elastic(kind) ? assembler_.elastic_skew_stiffness(u) : assembler_.skew_stiffness(u);
   if (!followers_) return matrix;
   const SkewMatrix change = followers_->tangent(u);
   const SkewMatrix transposed = change.transpose();

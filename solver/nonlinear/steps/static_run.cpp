@@ -142,8 +142,8 @@ void StaticRun::begin_measuring() {
 
 bool StaticRun::find_modes(double instant, int accepted) {
   if (!options_.stability || !is_stability_due(*options_.stability, instant, accepted)) return false;
-  const StabilityReport report =
-      critical_modes(*options_.stability, instant, now_.state.u, assembler_, elimination_, dofs_);
+  const StabilityReport report = critical_modes(*options_.stability, options_.tangent.prediction, instant, now_.state.u,
+                                                assembler_, elimination_, dofs_);
   if (!report.modes.empty()) {
     const auto smallest =
         std::ranges::min_element(report.modes, {}, [](const CriticalMode& mode) { return std::abs(mode.value); });

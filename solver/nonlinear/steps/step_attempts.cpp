@@ -123,7 +123,7 @@ int StaticRun::solve_from_either_side(double instant, const Progress& before) {
     take_back(before);
     tell_failure(instant, error, "again from an elastic prediction");
   }
-  newton_.predict_with(TangentKind::elastic);
+  newton_.predict_with(TangentKind::unloading);
   const OnExit as_before([&] { newton_.predict_with(options_.tangent.prediction); });
   return solve_and_check(instant);
 }

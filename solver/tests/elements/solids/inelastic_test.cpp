@@ -40,6 +40,21 @@ struct Flowed {
   }
 };
 
+TEST_CASE("ELASTIQUE is the stiffness of small strains on the initial geometry, wherever a body has gone") {
+  const Kinematics kinematics =
+      GENERATE(Kinematics::small, Kinematics::updated, Kinematics::green_lagrange, Kinematics::logarithmic);
+  const Relation relation = GENERATE(Relation::elastic, Relation::isotropic_linear);
+  const auto [type, formulation] =
+      GENERATE(std::pair{CellType::hexa8, Formulation::solid}, std::pair{CellType::quad8, Formulation::plane_stress},
+               std::pair{CellType::quad4, Formulation::axisymmetric});
+  const Flowed body(type, formulation, {kinematics, relation});
+  Flowed at_rest(type, formulation, {Kinematics::small, Relation::elastic});
+  const Eigen::MatrixXd expected = at_rest.assembler->stiffness(Eigen::VectorXd::Zero(at_rest.dofs->size()));
+  const Eigen::MatrixXd found = body.assembler->initial_stiffness(body.rough(0.06));
+  CHECK((found - expected).norm() < 1e-12 * expected.norm());
+  CHECK(body.assembler->is_initially_linear());
+}
+
 TEST_CASE("the tangent of an inelastic body is the derivative of its internal forces, but for the hoops") {
   const auto [type, formulation] = GENERATE(
       std::pair{CellType::hexa8, Formulation::solid}, std::pair{CellType::tetra10, Formulation::solid},
