@@ -116,6 +116,11 @@ Diagnosis likely_cause(std::span<const IterationReport> history, const IteratedP
     return {"the contact status still changes from one iteration to the next", iterate_more};
   if (history.size() > 1 && last.absolute_residual > history.front().absolute_residual)
     return {"the residual grows: the step is too large for Newton's method", iterate_more};
+  if (problem.is_elastic)
+    return {
+        "the residual shrinks too slowly for the iterations allowed: the elastic stiffness, which knows "
+        "neither flow nor large displacements, is far from the tangent",
+        "write MATRICE='TANGENTE', take smaller steps, or allow more iterations (ITER_GLOB_MAXI)"};
   return {"the residual shrinks too slowly for the iterations allowed", iterate_more};
 }
 

@@ -36,6 +36,7 @@ bool stands_unconverged(const NewtonOptions& options, std::span<const IterationR
 /// What iterations were about.
 struct IteratedProblem {
   bool is_linear = false;    ///< the tangent is the same for every displacement
+  bool is_elastic = false;   ///< iterations correct by the elastic stiffness (MATRICE='ELASTIQUE')
   bool has_contact = false;  ///< or other conditions that may open
   std::string unheld{};      ///< in words, what nothing but contact holds, or empty
 };

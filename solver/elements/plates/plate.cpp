@@ -55,8 +55,8 @@ class PlateBlock final : public ElementBlock {
       map_.dofs(element, dofs.data());
       const Matrix& k = matrix_at(element, state, own);
       const auto moved = relative(u, dofs);
-      if (const double strain = inelastic_strain(element, state); strain != 0.0) {
-        const Vector push = forces_of_strain(element, state, strain);
+      if (!state.empty()) {
+        const Vector push = forces_of_variables(element, state);
         for (int i = 0; i < size; ++i) forces[dofs[i]] -= push[i];
       }
       std::array<long double, 3> balance{};
@@ -112,12 +112,10 @@ class PlateBlock final : public ElementBlock {
         for (int i = 0; i < size; ++i) work += moved[i] * k(i, j) * moved[j];
       }
       out[element] = static_cast<double>(0.5L * work);
-      const double strain = inelastic_strain(element, state);
-      if (strain == 0.0) continue;
-      const Vector push = forces_of_strain(element, state, strain);
+      if (state.empty()) continue;
+      const Vector push = forces_of_variables(element, state);
       for (int i = 0; i < size; ++i) out[element] -= static_cast<double>(moved[i]) * push[i];
-      const Eigen::Vector3d undone = membrane_forces(rigidity(element, state), strain);
-      out[element] += 0.5 * area_of(plates_[element]) * strain * (undone[0] + undone[1]);
+      out[element] += energy_of_variables(element, state);
     }
   }
 
@@ -130,12 +128,12 @@ class PlateBlock final : public ElementBlock {
       const PlateRigidity rigidity = this->rigidity(element, state);
       const PlateKinematics<Nodes> kinematics(plate.corners, rigidity);
       const Vector own = own_displacements(u, element);
-      const double known = inelastic_strain(element, state);
       const double offset = plate.section->offset;
       Eigen::Vector4d parts = Eigen::Vector4d::Zero();
       for (const QuadraturePoint& point : points_) {
         const PlateRows<Nodes> rows = kinematics.at(point.at);
         const Eigen::Vector3d curvature = rows.curvature * own;
+        const double known = inelastic_strain(element, state, point.at);
         const Eigen::Vector3d strain = rows.membrane * own - Eigen::Vector3d(known, known, 0.0);
         const Eigen::Vector2d shear = rows.shear_force * own;
         const Eigen::Matrix3d membrane = plane_law(rigidity.membrane, rigidity.poisson);
@@ -208,14 +206,14 @@ class PlateBlock final : public ElementBlock {
     for (int element = 0; element < map_.element_count(); ++element) {
       const Vector own = own_displacements(u, element);
       const PlateRigidity rigidity = this->rigidity(element, state);
-      const Eigen::Vector3d undone = membrane_forces(rigidity, inelastic_strain(element, state));
       const PlateKinematics<Nodes> kinematics(plates_[element].corners, rigidity);
       for (const ReferencePoint& place : places) {
         const PlateRows<Nodes> rows = kinematics.at(place);
         const double offset = plates_[element].section->offset;
         const Eigen::Vector3d curvature = rows.curvature * own;
         const Eigen::Vector3d normal =
-            plane_law(rigidity.membrane, rigidity.poisson) * (rows.membrane * own + offset * curvature) - undone;
+            plane_law(rigidity.membrane, rigidity.poisson) * (rows.membrane * own + offset * curvature) -
+            membrane_forces(rigidity, inelastic_strain(element, state, place));
         const Eigen::Vector3d moment = plane_law(rigidity.bending, rigidity.poisson) * curvature + offset * normal;
         const Eigen::Vector2d shear = rows.shear_force * own;
         target = std::copy(normal.begin(), normal.end(), target);
@@ -269,16 +267,21 @@ class PlateBlock final : public ElementBlock {
     return plate.material->young.is_constant() && plate.material->poisson.is_constant();
   }
 
+  /// In the middle of the cell.
   MaterialPoint material_point(int element, const VariableState& state) const {
     std::array<double, Nodes> shares;
     shares.fill(1.0 / Nodes);
+    return material_point(element, state, shares);
+  }
+
+  /// Where the nodes have these shares.
+  MaterialPoint material_point(int element, const VariableState& state, std::span<const double> shares) const {
     const auto nodes = map_.nodes(element);
     MaterialPoint at;
     state.sample(cells_[element], nodes, shares, VariableState::all_points, at);
     std::array<double, 3> place{};
-    for (const int node : nodes) {
-      for (int j = 0; j < 3; ++j) place[j] += mesh_.nodes[node][j] / Nodes;
-    }
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (int j = 0; j < 3; ++j) place[j] += shares[i] * mesh_.nodes[nodes[i]][j];
     at.place(place);
     return at;
   }
@@ -288,10 +291,12 @@ class PlateBlock final : public ElementBlock {
     return rigidity_of(*plate.section, moduli(*plate.material, material_point(element, state)), shears_);
   }
 
-  /// What the command variables at the middle of the cell strain it by, the same in all directions and through the
-  /// thickness.
-  double inelastic_strain(int element, const VariableState& state) const {
-    return state.empty() ? 0.0 : inelastic_axial_strain(*plates_[element].material, material_point(element, state));
+  /// What the command variables at a place strain the plate by, the same in all directions and through the thickness.
+  double inelastic_strain(int element, const VariableState& state, const ReferencePoint& place) const {
+    if (state.empty()) return 0.0;
+    const Eigen::VectorXd shares = shape_functions(type, place);
+    return inelastic_axial_strain(*plates_[element].material,
+                                  material_point(element, state, {shares.data(), static_cast<std::size_t>(Nodes)}));
   }
 
   /// The membrane forces that undo such a strain, about the middle of the plate.
@@ -299,15 +304,28 @@ class PlateBlock final : public ElementBlock {
     return plane_law(rigidity.membrane, rigidity.poisson) * Eigen::Vector3d(strain, strain, 0.0);
   }
 
+  /// The energy of such a strain that is held back.
+  double energy_of_variables(int element, const VariableState& state) const {
+    const PlateRigidity rigidity = this->rigidity(element, state);
+    const PlateKinematics<Nodes> kinematics(plates_[element].corners, rigidity);
+    double energy = 0.0;
+    for (const QuadraturePoint& point : points_) {
+      const double strain = inelastic_strain(element, state, point.at);
+      energy += 0.5 * point.weight * kinematics.at(point.at).measure * strain *
+                membrane_forces(rigidity, strain).template head<2>().sum();
+    }
+    return energy;
+  }
+
   /// The forces (in the axes of the mesh) with which such a strain pushes the nodes apart.
-  Vector forces_of_strain(int element, const VariableState& state, double strain) const {
+  Vector forces_of_variables(int element, const VariableState& state) const {
     const FlatPlate<Nodes>& plate = plates_[element];
     const PlateRigidity rigidity = this->rigidity(element, state);
     const PlateKinematics<Nodes> kinematics(plate.corners, rigidity);
-    const Eigen::Vector3d pushing = membrane_forces(rigidity, strain);
     Vector forces = Vector::Zero();
     for (const QuadraturePoint& point : points_) {
       const PlateRows<Nodes> rows = kinematics.at(point.at);
+      const Eigen::Vector3d pushing = membrane_forces(rigidity, inelastic_strain(element, state, point.at));
       forces +=
           point.weight * rows.measure * (rows.membrane + plate.section->offset * rows.curvature).transpose() * pushing;
     }

@@ -481,7 +481,11 @@ IterationReport NewtonSolver::report(double time, int iteration, const Convergen
 }
 
 void NewtonSolver::fail(double time, const std::vector<IterationReport>& history) const {
-  throw_no_convergence(time, history, options_, {tangent_.is_constant(), has_conditions(), tangent_.unheld()});
+  throw_no_convergence(time, history, options_,
+                       {.is_linear = tangent_.is_constant(),
+                        .is_elastic = policy_.correction == TangentKind::elastic,
+                        .has_contact = has_conditions(),
+                        .unheld = tangent_.unheld()});
 }
 
 }  // namespace comma::solver

@@ -137,7 +137,9 @@ int PathFollowing::iterate(bool stays, double wanted, const DrivenLoads& loads, 
     if (!std::isfinite(measure.absolute)) break;
   }
   if (stands_unconverged(options_, history)) return history.back().iteration;
-  throw_no_convergence(time_, history, options_, {.is_linear = tangent_.is_constant()});
+  throw_no_convergence(
+      time_, history, options_,
+      {.is_linear = tangent_.is_constant(), .is_elastic = options_.tangent.correction == TangentKind::elastic});
 }
 
 void PathFollowing::accept_step(const VectorXd& u) {
