@@ -148,18 +148,18 @@ class ZonePoints {
 
   void face_master(const FacePoint& at, FacedFacet before, ContactPoint& point) const {
     const Vector3d here = position(point);
-    if (search_.too_far(here)) {
-      point.status = PairingStatus::too_far;
-      return;
-    }
+    const bool is_too_far = search_.too_far(here);
+    if (is_too_far) point.status = PairingStatus::too_far;
     OwnNodes own = own_nodes(point);
     if (zone_.normal_side != NormalSide::master)
       own.outward = has_node_normals() && point.stands_for >= 0 ? search_.slave_normal_at(point.stands_for)
                                                                 : search_.slave_normal(point.cell, at.xi);
     const auto hit = search_.nearest(here, own, before);
     if (!hit) return;
-    if (hit->faces) point.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
-    (hit->faces ? point.facet : point.beside) = hit->facet;
+    const bool faces = hit->faces && !is_too_far;
+    if (faces) point.status = zone_.resolved ? PairingStatus::paired : PairingStatus::watched;
+    (faces ? point.facet : point.beside) = hit->facet;
+    point.faces_beside = hit->faces && !faces;
     point.master_shape = hit->projection.weights;
     point.foot = hit->projection.foot;
     point.kept = hit->kept;

@@ -144,7 +144,7 @@ NodeContact node_contact(const SolvedContact& contact, Positions positions, std:
   NodeContact node;
   node.pair = {.zone = point.zone,
                .slave = point.stands_for,
-               .status = point.status,
+               .status = point.faces_beside ? PairingStatus::paired : point.status,
                .facet = point.facet >= 0 ? point.facet : point.beside,
                .weights = point.master_shape,
                .normal = point.normal,

@@ -298,3 +298,17 @@ TEST_CASE("Between nodes the law of contact holds in the mean, with one augmenta
   CHECK(open > 1.0);
   for (std::size_t i = 0; i < nodes.size(); ++i) CHECK(std::abs(left[i]) <= 1e-9 * weights[i]);
 }
+
+TEST_CASE("Mixed contact: a node out of reach is an open one, whose gap is told all the same") {
+  // Nodes of the slave face the middle of facets, half a cell from the nearest master node.
+  Stack stack(3, 2);
+  stack.scene.problem.contact->zones.front().pairing_distance = 0.4;
+  stack.scene.impose({stack.upper.nodes[0][0]}, Component::dx, 0);
+  stack.scene.impose(stack.upper.nodes.back(), Component::dy, -0.02);
+  stack.scene.solve(1);
+  const int middle = stack.upper.nodes[0][1], corner = stack.upper.nodes[0][0];
+  CHECK(stack.scene.contact(middle, "CONT") == 0.0);
+  CHECK(stack.scene.contact(middle, "JEU") < -1e-3);
+  CHECK(stack.scene.contact(middle, "RN") == 0.0);
+  CHECK(stack.scene.contact(corner, "CONT") == 2.0);
+}
