@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "solver/contact/contact_field.hpp"
+#include "solver/contact/straight_faces.hpp"
 #include "solver/contact/watched_zones.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/field_algebra.hpp"
@@ -51,8 +52,9 @@ void StaticRun::start(double instant) {
   if (problem_.contact) {
     pair_initially(instant);
     std::vector<int> slaves;
+    const bool is_discrete = problem_.contact->formulation == ContactFormulation::discrete;
     for (const ContactZone& zone : problem_.contact->zones) {
-      const auto nodes = mesh_.nodes_of_cells(zone.slave_cells);
+      const auto nodes = is_discrete ? contact_nodes(mesh_, zone) : mesh_.nodes_of_cells(zone.slave_cells);
       slaves.insert(slaves.end(), nodes.begin(), nodes.end());
     }
     step.fields.emplace("CONT_NOEU", untouched_field(slaves, mesh_.node_count()));

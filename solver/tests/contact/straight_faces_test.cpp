@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
 #include "solver/mesh/reference_cell.hpp"
@@ -127,6 +129,14 @@ TEST_CASE("two bricks of HEXA20 pressed together share the squeeze evenly", "[co
   const auto& displacement = last(result, "DEPL");
   for (const int node : bricks.level(1.0))
     CHECK(displacement.at(node, displacement.component("DZ")) == Approx(-0.1).epsilon(1e-10));
+  // The first step tells of the nodes of the others: corners alone.
+  for (const ResultStep& step : result.steps) {
+    const auto& contact = std::get<NodalField>(step.fields.at("CONT_NOEU"));
+    int told = 0;
+    for (const int node : bricks.mesh->nodes_of_cells(bricks.zone.slave_cells))
+      told += std::isnan(contact.at(node, contact.component("JEU"))) ? 0 : 1;
+    CHECK(told == 4);
+  }
 }
 
 TEST_CASE("where contact is not enforced, nodes go through and their depth is told", "[contact]") {
