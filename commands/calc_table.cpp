@@ -19,14 +19,6 @@ namespace {
 using interpreter::DiagnosticError;
 using interpreter::Value;
 
-Table without_columns(const Table& table, const std::vector<int>& columns) {
-  std::vector<int> kept;
-  for (int i = 0; i < static_cast<int>(table.columns.size()); ++i) {
-    if (std::find(columns.begin(), columns.end(), i) == columns.end()) kept.push_back(i);
-  }
-  return with_columns(table, kept);
-}
-
 void rename(Table& table, const Keywords& action) {
   const auto names = action.texts("NOM_PARA");
   const int column = column_of(table, names.front(), action);
