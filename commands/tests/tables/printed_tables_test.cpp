@@ -51,11 +51,12 @@ TEST_CASE("IMPR_TABLE has a page for each value, rising, and a crossed table its
   CHECK(printed(std::string(table) + "IMPR_TABLE(TABLE=T, UNITE=38, PAGINATION='N')") ==
         "##own\n#N: a\nI           \n           1\n\n"
         "##own\n#N: b\nI            X           \n           3  1.50000E+00\n           2 -2.00000E+00\n\n");
-  CHECK(printed(std::string(table) +
-                "IMPR_TABLE(TABLE=T, UNITE=38, FORMAT='TABLEAU_CROISE', NOM_PARA=('N', 'I', 'X'))") ==
+  std::string filled = table;
+  filled.replace(filled.find("(1.5, -2.0), NUME_LIGN=(1, 3)"), 29, "(1.5, 4.0, -2.0)");
+  CHECK(printed(filled + "IMPR_TABLE(TABLE=T, UNITE=38, FORMAT='TABLEAU_CROISE', NOM_PARA=('N', 'I', 'X'))") ==
         "##own\n#X FONCTION DE I ET N\n"
         "I/N          a            b           \n"
-        "           1 -            -           \n"
+        "           1  4.00000E+00 -           \n"
         "           2 -            -2.00000E+00\n"
         "           3 -             1.50000E+00\n"
         "\n");
