@@ -19,12 +19,26 @@ namespace {
 using interpreter::DiagnosticError;
 using interpreter::Value;
 
-Table without_columns(const Table& table, const std::vector<int>& columns) {
-  std::vector<int> kept;
-  for (int i = 0; i < static_cast<int>(table.columns.size()); ++i) {
-    if (std::find(columns.begin(), columns.end(), i) == columns.end()) kept.push_back(i);
+/// SUPPRIME takes away what there is, and tells of what is not (17.3 passes over it).
+Table suppressed(const Table& table, const Keywords& action, Context& context) {
+  std::vector<int> columns;
+  for (const std::string& name : action.texts("NOM_PARA")) {
+    columns.push_back(table.column(name));
+    if (columns.back() >= 0) continue;
+    const std::string near = interpreter::nearest(name, table.columns);
+    context.diagnostics.alarm("unknown-column",
+                              "CALC_TABLE: the table has no column " + name + ", which SUPPRIME is to take away",
+                              action.span_of("NOM_PARA"), near.empty() ? "" : "did you mean " + near + "?");
   }
-  return with_columns(table, kept);
+  Table rest = without_columns(table, columns);
+  drop_empty_rows(rest);
+  return rest;
+}
+
+Table extracted(const Table& table, const Keywords& action) {
+  Table part = with_columns(table, columns_of(table, action));
+  drop_empty_rows(part);
+  return part;
 }
 
 void rename(Table& table, const Keywords& action) {
@@ -110,6 +124,10 @@ void compute(Table& table, const Keywords& action) {
   }
   for (const std::string& name : names)
     sources.push_back(column_of(table, name, action, renamed ? "NOM_COLONNE" : "FORMULE"));
+  if (table.column(action.text("NOM_PARA")) >= 0) {
+    throw DiagnosticError("repeated-column", "CALC_TABLE: the table already has a column " + action.text("NOM_PARA"),
+                          action.span_of("NOM_PARA"), "give what OPER computes a name of its own");
+  }
   const int target = table.add_column(action.text("NOM_PARA"));
   for (auto& row : table.rows) {
     std::vector<Value> arguments;
@@ -138,20 +156,29 @@ double reduction(const std::string& type, const std::vector<double>& numbers) {
   return type == "SOMM" ? sum_of(numbers) : mean_of(numbers);
 }
 
+/// Of integers all but the mean is an integer.
+Cell reduced_cell(const Table& table, int column, const std::string& type, const Keywords& action) {
+  const auto numbers = numbers_in(table, column, action);
+  if (numbers.empty()) return Cell();
+  const double value = reduction(type, numbers);
+  const bool reals = std::ranges::any_of(table.rows, [&](const auto& row) {
+    return std::holds_alternative<double>(row[static_cast<std::size_t>(column)]);
+  });
+  return reals || type == "MOY" ? Cell(value) : Cell(static_cast<std::int64_t>(value));
+}
+
+// Columns as they stand in the table, and last what each row is.
 Table reduce(const Table& table, const Keywords& action) {
   Table reduced;
   reduced.title = table.title;
-  reduced.columns = {"TYPE_CALCUL"};
-  const auto columns = columns_of(table, action);
-  for (const std::string& name : action.texts("NOM_PARA")) reduced.columns.push_back(name);
+  auto columns = columns_of(table, action);
+  std::ranges::sort(columns);
+  for (const int column : columns) reduced.columns.push_back(table.columns[static_cast<std::size_t>(column)]);
+  reduced.columns.emplace_back("TYPE_CALCUL");
   for (const std::string& type : action.texts("TYPE_CALCUL")) {
     auto& row = reduced.rows.emplace_back();
+    for (const int column : columns) row.push_back(reduced_cell(table, column, type, action));
     row.emplace_back(type);
-    for (const int column : columns) {
-      const auto numbers = numbers_in(table, column, action);
-      Cell& cell = row.emplace_back();
-      if (!numbers.empty()) cell = reduction(type, numbers);
-    }
   }
   return reduced;
 }
@@ -175,7 +202,29 @@ void keep_different(Table& table, const Keywords& action) {
   table.rows = std::move(kept);
 }
 
-// STATISTIQUES: prints, column by column of numbers, how many there are, least, greatest, mean and standard deviation.
+// STATISTIQUES adds how many rows, columns and empty cells there are, in two columns of its own (U4.33.03).
+void add_statistics(Table& table, const Keywords& action) {
+  for (const char* name : {"STAT_VALE", "STAT_NOM"}) {
+    if (table.column(name) < 0) continue;
+    throw DiagnosticError("repeated-column", fmt::format("CALC_TABLE: the table already has a column {}", name),
+                          action.span_of("OPERATION"));
+  }
+  std::int64_t empty = 0;
+  for (const auto& row : table.rows) empty += std::ranges::count_if(row, is_empty);
+  const std::vector<std::pair<std::string, std::int64_t>> counts = {
+      {"NB_LIGNES", static_cast<std::int64_t>(table.rows.size())},
+      {"NB_COLONNES", static_cast<std::int64_t>(table.columns.size())},
+      {"NB_VIDE", empty}};
+  const auto values = static_cast<std::size_t>(table.add_column("STAT_VALE"));
+  const auto names = static_cast<std::size_t>(table.add_column("STAT_NOM"));
+  if (table.rows.size() < counts.size()) table.rows.resize(counts.size(), std::vector<Cell>(table.columns.size()));
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    table.rows[i][values] = counts[i].second;
+    table.rows[i][names] = counts[i].first;
+  }
+}
+
+// It prints as well, column by column of numbers, how many there are, least, greatest, mean and standard deviation.
 void show_statistics(const Table& table, const Context& context) {
   for (int column = 0; column < static_cast<int>(table.columns.size()); ++column) {
     std::vector<double> numbers;
@@ -239,17 +288,30 @@ class Join {
   std::vector<int> left_keys_, right_keys_, targets_;
 };
 
-Table acted(Table table, const Keywords& action, const Context& context) {
+/// A column that holds reals and integers holds reals.
+void unify_numbers(Table& table) {
+  for (std::size_t column = 0; column < table.columns.size(); ++column) {
+    if (std::ranges::none_of(table.rows, [&](const auto& row) { return std::holds_alternative<double>(row[column]); }))
+      continue;
+    for (auto& row : table.rows)
+      if (const auto* integer = std::get_if<std::int64_t>(&row[column])) row[column] = static_cast<double>(*integer);
+  }
+}
+
+Table acted(Table table, const Keywords& action, Context& context) {
   const std::string& operation = action.text("OPERATION");
   if (operation == "FILTRE") return filtered(table, action);
-  if (operation == "EXTR") return with_columns(table, columns_of(table, action));
-  if (operation == "SUPPRIME") return without_columns(table, columns_of(table, action));
+  if (operation == "EXTR") return extracted(table, action);
+  if (operation == "SUPPRIME") return suppressed(table, action, context);
   if (operation == "CALCUL") return reduce(table, action);
   if (operation == "COMB") return Join(table, action.data<TableConcept>("TABLE").table, action).run();
   if (operation == "RENOMME") rename(table, action);
   if (operation == "TRI") sort_rows(table, action);
   if (operation == "UNIQUE") keep_different(table, action);
-  if (operation == "STATISTIQUES") show_statistics(table, context);
+  if (operation == "STATISTIQUES") {
+    show_statistics(table, context);
+    add_statistics(table, action);
+  }
   if (operation == "OPER") compute(table, action);
   if (operation == "AJOUT_LIGNE") add_row(table, action);
   if (operation == "AJOUT_COLONNE") add_columns(table, action);
@@ -261,9 +323,12 @@ Table acted(Table table, const Keywords& action, const Context& context) {
 Product calc_table(const Call& call, Context& context) {
   auto product = std::make_shared<TableConcept>();
   product->table = call.data<TableConcept>("TABLE").table;
+  drop_empty_rows(product->table);
   for (const Keywords& action : call.factors("ACTION"))
     product->table = acted(std::move(product->table), action, context);
-  if (call.has("TITRE")) product->table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n# "));
+  drop_empty(product->table);
+  unify_numbers(product->table);
+  if (call.has("TITRE")) product->table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n"));
   return product;
 }
 

@@ -69,6 +69,7 @@ struct LoadConcept : ConceptData {
 
 struct ListConcept : ConceptData {
   std::vector<double> values;
+  std::optional<std::int64_t> length() const override { return static_cast<std::int64_t>(values.size()); }
   /// Valeurs() and getValues(): the numbers as a list.
   Value method(std::string_view name, const std::vector<Value>& arguments,
                const std::map<std::string, Value>& keywords) const override;
@@ -77,6 +78,7 @@ struct ListConcept : ConceptData {
 
 struct IntegerListConcept : ConceptData {
   std::vector<std::int64_t> values;
+  std::optional<std::int64_t> length() const override { return static_cast<std::int64_t>(values.size()); }
   /// Valeurs() and getValues(): the numbers as a list.
   Value method(std::string_view name, const std::vector<Value>& arguments,
                const std::map<std::string, Value>& keywords) const override;

@@ -19,11 +19,34 @@ namespace {
 
 using interpreter::DiagnosticError;
 
-std::vector<Cell> cells_of(const Keywords& list) {
+// The letters that TYPE_K leaves of a text; a letter of several bytes stays whole.
+std::string cut_text(const std::string& text, std::size_t width) {
+  std::size_t end = std::min(width, text.size());
+  while (end < text.size() && end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end);
+}
+
+void add_texts(std::vector<Cell>& cells, const Keywords& list, interpreter::Diagnostics& diagnostics) {
+  if (!list.given("LISTE_K")) return;
+  const std::string& type = list.text("TYPE_K");
+  const auto width = static_cast<std::size_t>(std::stoi(type.substr(1)));
+  bool told = false;
+  for (const std::string& text : list.texts("LISTE_K")) {
+    cells.emplace_back(cut_text(text, width));
+    if (told || without_padding(text).size() <= width) continue;
+    told = true;
+    diagnostics.alarm("cut-text",
+                      fmt::format("CREA_TABLE: texts of the column {} are cut to {} letters, \"{}\" to \"{}\"",
+                                  list.text("PARA"), width, text, cut_text(text, width)),
+                      list.span_of("LISTE_K"), "write TYPE_K='K24', or K80 for still longer ones");
+  }
+}
+
+std::vector<Cell> cells_of(const Keywords& list, interpreter::Diagnostics& diagnostics) {
   std::vector<Cell> cells;
   for (const double value : list.reals("LISTE_R")) cells.emplace_back(value);
   for (const auto value : list.integers("LISTE_I")) cells.emplace_back(value);
-  for (const auto& value : list.texts("LISTE_K")) cells.emplace_back(value);
+  add_texts(cells, list, diagnostics);
   return cells;
 }
 
@@ -32,12 +55,12 @@ void put(Table& table, std::size_t row, int column, Cell cell) {
   table.rows[row][static_cast<std::size_t>(column)] = std::move(cell);
 }
 
-void add_list(Table& table, const Keywords& list) {
+void add_list(Table& table, const Keywords& list, interpreter::Diagnostics& diagnostics) {
   const std::string& name = list.text("PARA");
   if (table.column(name) >= 0)
     throw DiagnosticError("repeated-column", "CREA_TABLE: two lists are named " + name, list.span_of("PARA"));
   const int column = table.add_column(name);
-  const auto cells = cells_of(list);
+  const auto cells = cells_of(list, diagnostics);
   const auto rows = list.integers("NUME_LIGN");
   constexpr std::int64_t most_rows = 1'000'000;
   if (!rows.empty() && *std::ranges::max_element(rows) > most_rows) {
@@ -94,6 +117,12 @@ Row head_of(const Keywords& source, const FieldSource& from) {
   Row head = from.columns;
   for (auto& [column, cell] : head)
     if (column == "RESU") column = "RESULTAT";
+  // The instant stands before the number of the step (17.3).
+  const auto column = [&](const char* name) {
+    return std::ranges::find(head, name, &std::pair<std::string, Cell>::first);
+  };
+  if (const auto instant = column("INST"); instant != head.end() && column("NUME_ORDRE") < instant)
+    std::rotate(column("NUME_ORDRE"), instant, instant + 1);
   if (source.has("INTITULE")) head.insert(head.begin(), {"INTITULE", source.text("INTITULE")});
   return head;
 }
@@ -171,13 +200,13 @@ void add_field(Table& table, const Keywords& source, interpreter::Diagnostics& d
 
 Product crea_table(const Call& call, Context& context) {
   auto product = std::make_shared<TableConcept>();
-  for (const Keywords& list : call.factors("LISTE")) add_list(product->table, list);
+  for (const Keywords& list : call.factors("LISTE")) add_list(product->table, list, context.diagnostics);
   for (const Keywords& source : call.factors("FONCTION")) add_function(product->table, source);
   for (const Keywords& source : call.factors("RESU")) {
     warn_of_missing_instants("CREA_TABLE", source, context.diagnostics);
     add_field(product->table, source, context.diagnostics);
   }
-  if (call.has("TITRE")) product->table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n# "));
+  if (call.has("TITRE")) product->table.title = fmt::format("{}", fmt::join(call.texts("TITRE"), "\n"));
   return product;
 }
 

@@ -91,53 +91,64 @@ namespace {
 
 using Items = std::vector<std::pair<std::string, Value>>;
 
-Value points_of(const solver::TabulatedFunction& table) { return Value::list({list_of(table.x), list_of(table.y)}); }
+Value array_of(const std::vector<double>& values) {
+  return interpreter::make_value({values, {values.size()}, interpreter::NumberType::real});
+}
 
-Items shape_of(const solver::TabulatedFunction& table, const std::string& suffix = "") {
-  return {{"INTERPOL" + suffix,
-           Value::list({Value(std::string(word_of(table.x_scale))), Value(std::string(word_of(table.y_scale)))})},
-          {"PROL_DROITE" + suffix, Value(std::string(word_of(table.right)))},
-          {"PROL_GAUCHE" + suffix, Value(std::string(word_of(table.left)))}};
+Value word(std::string_view text) { return Value(std::string(text)); }
+
+Value scales_of(const solver::TabulatedFunction& table) {
+  return Value::list({word(word_of(table.x_scale)), word(word_of(table.y_scale))});
 }
 
 Items attributes_of(const solver::TabulatedFunction& table) {
-  Items items = shape_of(table);
-  items.emplace_back("NOM_PARA", Value(table.parameter));
-  items.emplace_back("NOM_RESU", Value(table.result));
-  return items;
+  return {{"INTERPOL", scales_of(table)},
+          {"NOM_PARA", Value(table.parameter)},
+          {"NOM_RESU", Value(table.result)},
+          {"PROL_GAUCHE", word(word_of(table.left))},
+          {"PROL_DROITE", word(word_of(table.right))}};
 }
 
 }  // namespace
 
 std::vector<std::string> FunctionConcept::method_names() const {
-  if (table() == nullptr) return {};
+  if (points() == nullptr) return {};
   return {"Absc", "Ordo", "Parametres", "Valeurs", "getValues", "getValuesAsArray", "size"};
 }
 
 Value FunctionConcept::method(std::string_view name, const std::vector<Value>& arguments,
                               const std::map<std::string, Value>& keywords) const {
-  if (table() != nullptr && arguments.empty() && keywords.empty()) {
-    if (name == "Absc") return list_of(table()->x);
-    if (name == "Ordo") return list_of(table()->y);
+  const solver::TabulatedFunction* shown = points();
+  if (shown != nullptr && arguments.empty() && keywords.empty()) {
+    if (name == "Absc") return array_of(shown->x);
+    if (name == "Ordo") return array_of(shown->y);
     if (name == "getValues") {
-      std::vector<double> values = table()->x;
-      values.insert(values.end(), table()->y.begin(), table()->y.end());
+      std::vector<double> values = shown->x;
+      values.insert(values.end(), shown->y.begin(), shown->y.end());
       return list_of(values);
     }
     if (name == "getValuesAsArray") {
       std::vector<double> rows;
-      for (std::size_t i = 0; i < table()->x.size(); ++i) rows.insert(rows.end(), {table()->x[i], table()->y[i]});
-      return interpreter::make_value({std::move(rows), {table()->x.size(), 2}, interpreter::NumberType::real});
+      for (std::size_t i = 0; i < shown->x.size(); ++i) rows.insert(rows.end(), {shown->x[i], shown->y[i]});
+      return interpreter::make_value({std::move(rows), {shown->x.size(), 2}, interpreter::NumberType::real});
     }
-    if (name == "size") return Value(static_cast<std::int64_t>(table()->x.size()));
-    if (name == "Valeurs") return points_of(*table());
-    if (name == "Parametres") return Value::dict(attributes_of(*table()));
+    if (name == "size") return Value(static_cast<std::int64_t>(shown->x.size()));
+    if (name == "Valeurs") return Value::tuple({array_of(shown->x), array_of(shown->y)});
+    if (name == "Parametres") return Value::dict(attributes_of(*shown));
   }
   return ConceptData::method(name, arguments, keywords);
 }
 
 Value FunctionConcept::call(const std::vector<Value>& arguments) const {
   return diagnosed([&] { return ConceptData::call(arguments); });
+}
+
+ConstantConcept::ConstantConcept(double value) {
+  point_.x = {1.0};
+  point_.y = {value};
+  point_.left = point_.right = solver::Extension::constant;
+  point_.parameter = "TOUTPARA";
+  point_.result = "TOUTRESU";
 }
 
 TabulatedConcept::TabulatedConcept(solver::TabulatedFunction function)
@@ -220,13 +231,16 @@ Value SurfaceConcept::method(std::string_view name, const std::vector<Value>& ar
   const bool plain = arguments.empty() && keywords.empty();
   std::vector<Value> of_rows;
   if (plain && name == "Valeurs") {
-    for (const auto& row : rows_) of_rows.push_back(points_of(*row));
+    for (const auto& row : rows_) of_rows.push_back(Value::list({list_of(row->x), list_of(row->y)}));
     return Value::list({list_of(edges_.x), Value::list(of_rows)});
   }
   if (plain && name == "Parametres") {
     Items items = attributes_of(edges_);
     items.emplace_back("NOM_PARA_FONC", Value(parameters_[1]));
-    for (const auto& row : rows_) of_rows.push_back(Value::dict(shape_of(*row, "_FONC")));
+    for (const auto& row : rows_)
+      of_rows.push_back(Value::dict({{"INTERPOL_FONC", scales_of(*row)},
+                                     {"PROL_DROITE_FONC", word(word_of(row->right))},
+                                     {"PROL_GAUCHE_FONC", word(word_of(row->left))}}));
     return Value::list({Value::dict(std::move(items)), Value::list(of_rows)});
   }
   return ConceptData::method(name, arguments, keywords);

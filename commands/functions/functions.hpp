@@ -19,14 +19,16 @@ struct FunctionConcept : interpreter::ConceptData, interpreter::RealFunction {
   const RealFunction* real_function() const override { return this; }
   /// With numbers; an error of the solver becomes one of the language.
   interpreter::Value call(const std::vector<interpreter::Value>& arguments) const override;
-  /// Of a table: Absc() and Ordo(), its abscissas and values as lists, and Valeurs(), both (U1.03.02); getValues():
-  /// both in one list, abscissas first; getValuesAsArray(): a row a point; size(): how many; Parametres(): NOM_PARA,
-  /// NOM_RESU, INTERPOL, PROL_DROITE and PROL_GAUCHE, as DEFI_FONCTION takes them.
+  /// Of what has points: Absc() and Ordo(), its abscissas and values as arrays, and Valeurs(), both (U1.03.02);
+  /// getValues(): both in one list, abscissas first; getValuesAsArray(): a row a point; size(): how many;
+  /// Parametres(): INTERPOL, NOM_PARA, NOM_RESU, PROL_GAUCHE and PROL_DROITE, as DEFI_FONCTION takes them.
   interpreter::Value method(std::string_view name, const std::vector<interpreter::Value>& arguments,
                             const std::map<std::string, interpreter::Value>& keywords) const override;
   std::vector<std::string> method_names() const override;
   /// The table behind it, or null when it has none.
   virtual const solver::TabulatedFunction* table() const { return nullptr; }
+  /// The points that methods show: those of the table.
+  virtual const solver::TabulatedFunction* points() const { return table(); }
 };
 
 /// DEFI_FONCTION, and the commands that tabulate.
@@ -42,15 +44,16 @@ class TabulatedConcept : public FunctionConcept {
   std::vector<std::string> parameters_;
 };
 
-/// DEFI_CONSTANTE: whatever the parameter.
+/// DEFI_CONSTANTE: whatever the parameter. Methods show one point at 1, as in Code_Aster.
 class ConstantConcept : public FunctionConcept {
  public:
-  explicit ConstantConcept(double value) : value_(value) {}
+  explicit ConstantConcept(double value);
   const std::vector<std::string>& parameters() const override { return parameters_; }
-  double evaluate(std::span<const double>) const override { return value_; }
+  double evaluate(std::span<const double>) const override { return point_.y.front(); }
+  const solver::TabulatedFunction* points() const override { return &point_; }
 
  private:
-  double value_;
+  solver::TabulatedFunction point_;
   std::vector<std::string> parameters_;
 };
 

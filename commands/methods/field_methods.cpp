@@ -73,6 +73,12 @@ std::vector<int> cells_of(const solver::Mesh& mesh, const std::vector<std::strin
   return cells.take();
 }
 
+std::vector<int> rising(std::vector<int> places) {
+  std::ranges::sort(places);
+  return places;
+}
+
+/// Nodes or cells of groups come by rising numbers (Code_Aster 17.3).
 Extract extract_of(const FieldConcept& data, const std::vector<std::string>& components,
                    const std::vector<std::string>& groups) {
   if (!data.functions.empty()) throw DiagnosticError("wrong-type", "the field holds functions, not numbers");
@@ -86,13 +92,13 @@ Extract extract_of(const FieldConcept& data, const std::vector<std::string>& com
     return true;
   };
   if (const auto* nodal = std::get_if<solver::NodalField>(&data.field)) {
-    for (const int node : nodes_of(*data.mesh, groups))
+    for (const int node : rising(nodes_of(*data.mesh, groups)))
       for (const int column : columns)
         if (take(nodal->at(node, column), column)) result.nodes.push_back(node);
     return result;
   }
   const auto& element = std::get<solver::ElementField>(data.field);
-  for (const int cell : cells_of(*data.mesh, groups))
+  for (const int cell : rising(cells_of(*data.mesh, groups)))
     for (int point = 0; point < element.points(cell); ++point)
       for (const int column : columns)
         if (take(element.at(cell, point, column), column)) {

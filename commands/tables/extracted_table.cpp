@@ -78,11 +78,13 @@ Value keywords_of(const Table& table) {
     if (values.empty()) continue;
     std::vector<std::pair<std::string, Value>> entries = {{"PARA", Value(table.columns[c])}};
     if (rows.size() < table.rows.size()) entries.emplace_back("NUME_LIGN", Value::list(std::move(rows)));
-    if (list == "LISTE_K") entries.emplace_back("TYPE_K", Value("K24"));
+    if (list == "LISTE_K") entries.emplace_back("TYPE_K", Value(type_of_column(table, c)));
     entries.emplace_back(list, Value::list(std::move(values)));
     lists.push_back(Value::dict(std::move(entries)));
   }
-  return Value::dict({{"LISTE", Value::list(std::move(lists))}});
+  std::vector<std::pair<std::string, Value>> keywords = {{"LISTE", Value::list(std::move(lists))}};
+  if (!table.title.empty()) keywords.insert(keywords.begin(), {"TITRE", Value::list({Value(table.title)})});
+  return Value::dict(std::move(keywords));
 }
 
 void need_column(const TableRows& table, const std::string& name) {
@@ -129,13 +131,13 @@ void add_column(TableRows& table, const std::string& name, const std::vector<Val
   }
 }
 
-/// Numbers before texts before empty cells, as IMPR_TABLE sorts them.
-int rank_of(const Value& value) { return value.is_none() ? 2 : value.is_text() ? 1 : 0; }
+/// Empty cells before numbers before texts, as IMPR_TABLE sorts them.
+int rank_of(const Value& value) { return value.is_none() ? 0 : value.is_text() ? 2 : 1; }
 
-bool comes_before(const Value& a, const Value& b, bool downwards) {
+bool comes_before(const Value& a, const Value& b) {
   const int left = rank_of(a), right = rank_of(b);
-  if (left != right || left == 2) return left < right;
-  return downwards ? interpreter::less_than(b, a) : interpreter::less_than(a, b);
+  if (left != right || left == 0) return left < right;
+  return interpreter::less_than(a, b);
 }
 
 Value sort(TableRows& table, Evaluator&, const MethodArguments& given) {
@@ -145,9 +147,12 @@ Value sort(TableRows& table, Evaluator&, const MethodArguments& given) {
   if (order != "CROISSANT" && order != "DECROISSANT")
     raise(ErrorKind::value, "ORDRE is CROISSANT or DECROISSANT, not " + order);
   const bool downwards = order == "DECROISSANT";
+  // Rows that tie come in the reverse of their order.
+  std::ranges::reverse(table.rows);
   for (auto key = keys.rbegin(); key != keys.rend(); ++key)
     std::ranges::stable_sort(table.rows, [&, name = Value(*key)](const auto& a, const auto& b) {
-      return comes_before(cell_in(*a, name), cell_in(*b, name), downwards);
+      const Value left = cell_in(*a, name), right = cell_in(*b, name);
+      return downwards ? comes_before(right, left) : comes_before(left, right);
     });
   return Value();
 }
@@ -199,8 +204,7 @@ Value rename(TableRows& table, Evaluator&, const MethodArguments& given) {
   std::ranges::replace(table.columns, before, after);
   for (const auto& row : table.rows) {
     const Value value = cell_in(*row, Value(before));
-    if (!row->erase(Value(before))) continue;
-    if (!value.is_none()) row->set(Value(after), value);
+    if (row->erase(Value(before))) row->set(Value(after), value);
   }
   return Value();
 }
@@ -321,11 +325,16 @@ struct TableObject : HostObject {
       if (!is_there(*row)) united->rows.push_back(row);
     return table_value(std::move(united));
   }
-  /// The column of a name, or the table of those of several.
+  /// The table of a column or of several.
   std::optional<Value> item(const Value& index) const override {
     if (!index.is_text() && !index.is_sequence()) return std::nullopt;
-    const std::vector<std::string> names = names_in(index);
-    return index.is_text() ? column_value(table, names.front()) : table_value(with_columns(*table, names));
+    return table_value(with_columns(*table, names_in(index)));
+  }
+  /// A table of one column looks like that column, and is none.
+  std::optional<Value> compared(Operator, const Value& other) const override {
+    if (table->columns.size() != 1 || other.is_none()) return std::nullopt;
+    raise(ErrorKind::type, "a table cannot be compared, its column can",
+          "write T." + table->columns.front() + " for the column itself");
   }
   bool store_item(const Value& index, const Value& value) override {
     if (!index.is_text() || !value.is_sequence()) return false;
@@ -373,9 +382,9 @@ Value extracted_table(const Table& table) {
   rows->title = table.title;
   rows->columns = table.columns;
   for (const auto& cells : table.rows) {
+    if (std::ranges::all_of(cells, is_empty)) continue;
     auto row = std::make_shared<Dict>();
-    for (std::size_t c = 0; c < cells.size(); ++c)
-      if (!std::holds_alternative<std::monostate>(cells[c])) row->set(Value(table.columns[c]), value_of(cells[c]));
+    for (std::size_t c = 0; c < cells.size(); ++c) row->set(Value(table.columns[c]), value_of(cells[c]));
     rows->rows.push_back(std::move(row));
   }
   return table_value(std::move(rows));

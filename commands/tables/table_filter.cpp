@@ -16,8 +16,6 @@ using interpreter::Keywords;
 
 namespace {
 
-bool is_empty(const Cell& cell) { return std::holds_alternative<std::monostate>(cell); }
-
 /// -1, 0 or 1; two reals that agree within the tolerance count as equal for EQ and NE only.
 int order(double value, double reference) { return value < reference ? -1 : value > reference ? 1 : 0; }
 
@@ -46,7 +44,9 @@ class Comparison {
     }
   }
 
+  /// An empty cell differs from every value (17.3), and otherwise passes nothing.
   bool passes(const Cell& cell) const {
+    if (is_empty(cell)) return comparison_ == "NE";
     if (kind_ == Kind::text) {
       const auto* text = std::get_if<std::string>(&cell);
       if (text == nullptr) return false;
@@ -88,18 +88,6 @@ double ranked(const std::string& comparison, double value) {
   return comparison.starts_with("MINI") ? -size : size;
 }
 
-/// Numbers before texts, empty cells last, whatever the order of each kind.
-int rank(const Cell& cell) {
-  return std::holds_alternative<std::monostate>(cell) ? 2 : std::holds_alternative<std::string>(cell) ? 1 : 0;
-}
-
-bool less(const Cell& a, const Cell& b) {
-  if (rank(a) != rank(b)) return rank(a) < rank(b);
-  if (rank(a) == 2) return false;
-  if (rank(a) == 1) return std::get<std::string>(a) < std::get<std::string>(b);
-  return *number_in(a) < *number_in(b);
-}
-
 Table extremes(const Table& table, int column, const Keywords& filter) {
   const std::string& comparison = filter.text("CRIT_COMP");
   auto numbers = numbers_in(table, column, filter);
@@ -126,6 +114,9 @@ int column_of(const Table& table, const std::string& name, const Keywords& keywo
   const int column = table.column(name);
   if (column >= 0) return column;
   const std::string near = interpreter::nearest(name, table.columns);
+  if (table.columns.empty())
+    throw DiagnosticError("unknown-column", "the table is empty: it has no column " + name, keywords.span_of(keyword),
+                          "look whether FILTRE has let any row pass");
   throw DiagnosticError("unknown-column", "the table has no column " + name, keywords.span_of(keyword),
                         near.empty() ? "" : "did you mean " + near + "?");
 }
@@ -148,6 +139,14 @@ Table with_columns(const Table& table, const std::vector<int>& columns) {
   return part;
 }
 
+Table without_columns(const Table& table, const std::vector<int>& columns) {
+  std::vector<int> kept;
+  for (int i = 0; i < static_cast<int>(table.columns.size()); ++i) {
+    if (std::find(columns.begin(), columns.end(), i) == columns.end()) kept.push_back(i);
+  }
+  return with_columns(table, kept);
+}
+
 Table filtered(const Table& table, const Keywords& filter) {
   const int column = column_of(table, filter.texts("NOM_PARA").front(), filter);
   const std::string& comparison = filter.text("CRIT_COMP");
@@ -164,16 +163,17 @@ Table filtered(const Table& table, const Keywords& filter) {
 
 void sort_rows(Table& table, const Keywords& keywords) {
   const auto columns = columns_of(table, keywords);
-  std::stable_sort(table.rows.begin(), table.rows.end(), [&](const auto& a, const auto& b) {
+  const bool rising = keywords.text("ORDRE") == "CROISSANT";
+  // Rows that tie come in the reverse of their order, rising and falling alike, as in Code_Aster 17.3.
+  std::ranges::reverse(table.rows);
+  std::ranges::stable_sort(table.rows, [&](const auto& a, const auto& b) {
     for (const int column : columns) {
       const Cell &left = a[static_cast<std::size_t>(column)], &right = b[static_cast<std::size_t>(column)];
-      if (less(left, right)) return true;
-      if (less(right, left)) return false;
+      if (stands_before(left, right)) return rising;
+      if (stands_before(right, left)) return !rising;
     }
     return false;
   });
-  // The whole order turns round, that of equal rows too, as in Code_Aster 17.3.
-  if (keywords.text("ORDRE") != "CROISSANT") std::ranges::reverse(table.rows);
 }
 
 std::vector<double> numbers_in(const Table& table, int column, const Keywords& keywords) {

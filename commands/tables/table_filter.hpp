@@ -22,8 +22,11 @@ std::vector<int> columns_of(const Table& table, const interpreter::Keywords& key
 /// These columns alone, in this order.
 Table with_columns(const Table& table, const std::vector<int>& columns);
 
-/// Orders the rows by the columns of NOM_PARA, upwards or downwards (ORDRE); rows that agree keep their order. Numbers
-/// come before texts, empty cells last.
+/// All but these columns.
+Table without_columns(const Table& table, const std::vector<int>& columns);
+
+/// Orders the rows by the columns of NOM_PARA, upwards or downwards (ORDRE); rows that agree come in the reverse of
+/// their order, as in Code_Aster 17.3. Rising, empty cells come before numbers, and these before texts.
 void sort_rows(Table& table, const interpreter::Keywords& keywords);
 
 /// The rows that pass one FILTRE (NOM_PARA, CRIT_COMP, VALE, VALE_I, VALE_K, CRITERE, PRECISION), in their order.

@@ -2,6 +2,7 @@
 // and which node of the command graph fills it; the commands layer derives from ConceptData and knows the rest.
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <memory>
@@ -29,7 +30,7 @@ struct RealFunction {
   virtual int nesting() const { return 0; }
 };
 
-/// The filled inside of a concept. Commands derive from it. The three functions are what the language can do with a
+/// The filled inside of a concept. Commands derive from it. The functions are what the language can do with a
 /// concept; by default a real function is called with numbers, and each of the others throws DiagnosticError
 /// `not-supported`.
 struct ConceptData {
@@ -39,6 +40,8 @@ struct ConceptData {
   virtual Value call(const std::vector<Value>& arguments) const;  ///< F(2.0)
   virtual Value method(std::string_view name, const std::vector<Value>& arguments,
                        const std::map<std::string, Value>& keywords) const;  ///< MA.getNumberOfNodes()
+  /// What len() gives; nothing for a concept without length.
+  virtual std::optional<std::int64_t> length() const { return std::nullopt; }
   /// What an operator makes of it and of a number or a concept whose data is there; null where it makes nothing.
   /// `reversed`: the other one stands on the left.
   virtual std::shared_ptr<ConceptData> combined(Operator, const Value& /*other*/, bool /*reversed*/) const {

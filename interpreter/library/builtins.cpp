@@ -54,9 +54,14 @@ Value print(Evaluator& evaluator, const CallArguments& arguments) {
   return {};
 }
 
-Value len(Evaluator&, const CallArguments& arguments) {
+Value len(Evaluator& evaluator, const CallArguments& arguments) {
   expect_arguments("len", arguments, 1, 1);
   if (const auto length = length_of(arguments[0])) return *length;
+  if (arguments[0].is_concept()) {
+    const ConceptPtr& handle = arguments[0].as_concept();
+    if (!evaluator.host().force(handle)) return Value::unknown();
+    if (const auto length = handle->data->length()) return *length;
+  }
   raise(ErrorKind::type, fmt::format("object of type '{}' has no len()", arguments[0].type_name()));
 }
 

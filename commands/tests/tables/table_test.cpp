@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,7 +21,12 @@ TEST_CASE("A table is printed in aligned columns, an empty cell as a dash") {
   table.title = "forces";
   table.columns = {"NOEUD", "DX"};
   table.rows = {{std::string("N1"), 1.5}, {std::string("N12"), Cell()}};
-  CHECK(format_table(table) == "# forces\n NOEUD DX\n N1     1.50000E+00\n N12   -\n");
+  const std::string head = "#\n#" + std::string(80, '-') + "\n";
+  CHECK(format_table(table) ==
+        head + "##forces\nNOEUD    DX          \nN1        1.50000E+00\nN12      -           \n");
+  table.columns[0] = "NAME_OF_NODE";
+  CHECK(format_table(table, {.separator = ",", .real_format = "F8.2", .names_comment = "%"}) ==
+        head + "##forces\n%NAME_OF_NODE,DX\n    N1      ,        1.50\n    N12     ,    -       \n");
 }
 
 TEST_CASE("A table in Code_Aster's own format says what its columns hold") {
@@ -29,29 +35,39 @@ TEST_CASE("A table in Code_Aster's own format says what its columns hold") {
   table.columns = {"NOEUD", "STEP", "DX"};
   table.rows = {{std::string("N1"), std::int64_t{3}, 1.5}};
   CHECK(aster_table(table) ==
-        "#DEBUT_TABLE\n#TITRE forces\n NOEUD STEP DX\n K80   I    R\n N1    3     1.50000E+00\n#FIN_TABLE\n");
+        "#\n#" + std::string(80, '-') + "\n##DEBUT_TABLE\n#TITRE forces\n NOEUD    STEP         DX          \n" +
+            " K8       I            R           \n N1                  3  1.50000E+00\n#FIN_TABLE\n");
 }
 
 TEST_CASE("A crossed table has a row and a column for each value of two columns") {
   Table table;
   table.columns = {"INST", "NOEUD", "DX"};
-  table.rows = {{1.0, std::string("A"), 10.0}, {1.0, std::string("B"), 20.0}, {2.0, std::string("B"), 30.0}};
+  table.rows = {{2.0, std::string("B"), 30.0}, {1.0, std::string("B"), 20.0}, {1.0, std::string("A"), 10.0}};
   const Table both = crossed(table);
-  CHECK(both.columns == std::vector<std::string>{"INST/NOEUD", "A", "B"});
+  CHECK(both.title == "DX FONCTION DE NOEUD ET INST");
+  CHECK(both.columns == std::vector<std::string>{"NOEUD/INST", "1.0", "2.0"});
   REQUIRE(both.rows.size() == 2);
-  CHECK(both.rows[0] == std::vector<Cell>{1.0, 10.0, 20.0});
-  CHECK(both.rows[1] == std::vector<Cell>{2.0, Cell(), 30.0});
+  CHECK(both.rows[0] == std::vector<Cell>{std::string("A"), 10.0, Cell()});
+  CHECK(both.rows[1] == std::vector<Cell>{std::string("B"), 20.0, 30.0});
 }
 
 TEST_CASE("A number that is none stands in a row of its own of a crossed table") {
   const double none = std::numeric_limits<double>::quiet_NaN();
   Table table;
-  table.columns = {"INST", "NOEUD", "DX"};
-  table.rows = {{none, std::string("A"), 10.0}, {0.0, std::string("A"), 20.0}, {-0.0, std::string("B"), 30.0}};
+  table.columns = {"NOEUD", "INST", "DX"};
+  table.rows = {{std::string("A"), none, 10.0}, {std::string("A"), 0.0, 20.0}, {std::string("B"), -0.0, 30.0}};
   const Table both = crossed(table);
   REQUIRE(both.rows.size() == 2);
-  CHECK(both.rows[0][1] == Cell(10.0));
-  CHECK(both.rows[1] == std::vector<Cell>{0.0, 20.0, 30.0});
+  CHECK(std::ranges::count(both.rows, std::vector<Cell>{0.0, 20.0, 30.0}) == 1);
+}
+
+TEST_CASE("Rows and columns that are wholly empty go") {
+  Table table;
+  table.columns = {"A", "B"};
+  table.rows = {{1.0, Cell()}, {Cell(), Cell()}, {2.0, Cell()}};
+  drop_empty(table);
+  CHECK(table.columns == std::vector<std::string>{"A"});
+  CHECK(table.rows == std::vector<std::vector<Cell>>{{1.0}, {2.0}});
 }
 
 TEST_CASE("A column added later is empty in the rows before") {
