@@ -1,7 +1,6 @@
 #include "solver/contact/straight_faces.hpp"
 
 #include <algorithm>
-
 #include <cmath>
 
 #include <catch2/catch.hpp>
