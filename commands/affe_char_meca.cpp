@@ -42,9 +42,12 @@ bool imposes_the_same(const solver::LinearRelation& one, const solver::LinearRel
          one.value * other.terms.front().coefficient == other.value * one.terms.front().coefficient;
 }
 
+/// What equal values of several occurrences leave: relations that agree, or one, where values of loads add up.
+enum class Repeated : std::uint8_t { kept, dropped };
+
 /// Of those from `first` on. The rule of overloading: see Overriding.
 void keep_last(const Call& call, const char* keyword, std::size_t first, const LoadedModel& target, solver::Load& load,
-               Context& context) {
+               Context& context, Repeated repeated = Repeated::kept) {
   std::map<std::pair<int, solver::Component>, std::size_t> last;
   std::vector<char> overridden(load.relations.size(), 0);
   Overriding found{keyword};
@@ -54,14 +57,18 @@ void keep_last(const Call& call, const char* keyword, std::size_t first, const L
     const auto [known, is_first] = last.try_emplace({relation.terms.front().node, relation.terms.front().component}, k);
     if (is_first) continue;
     const std::size_t before = std::exchange(known->second, k);
-    if (imposes_the_same(load.relations[before], relation)) continue;
-    overridden[before] = 1;
+    const bool same = imposes_the_same(load.relations[before], relation);
+    if (!same || repeated == Repeated::dropped) overridden[before] = 1;
+    if (same) continue;
     ++found.count;
     if (found.example.empty())
       found.example = fmt::format("{} at {}", solver::name_of(relation.terms.front().component),
                                   target.mesh.node_name(relation.terms.front().node));
   }
-  warn_of(found, call.span, "where both are meant to hold, put them into two loads", context);
+  warn_of(found, call.span,
+          repeated == Repeated::dropped ? "leave one of them out; what two loads impose there adds up"
+                                        : "where both are meant to hold, put them into two loads",
+          context);
   std::size_t k = 0;
   std::erase_if(load.relations, [&](const solver::LinearRelation&) { return overridden[k++] != 0; });
 }
@@ -96,7 +103,7 @@ Product affe_char_cine(const Call& call, Context& context) {
   for (const Keywords& imposed : call.factors("MECA_IMPO")) {
     add_imposed_displacements(imposed, "MECA_IMPO", target, *load, &context.diagnostics);
   }
-  keep_last(call, "MECA_IMPO", 0, target, *load, context);
+  keep_last(call, "MECA_IMPO", 0, target, *load, context, Repeated::dropped);
   return load_concept(call, std::move(load));
 }
 

@@ -62,7 +62,7 @@ void test_mean(const Keywords& test, Context& context) {
   const auto bounds = test.reals("INTERVALLE");
   const double value = mean_of(test, bounds[0], bounds[1]);
   const std::string label = fmt::format("{} mean from {:g} to {:g}", name_in_verdicts(test), bounds[0], bounds[1]);
-  for (Verdict& verdict : judge(test, "TEST_FONCTION", label, value)) context.report(std::move(verdict));
+  for (Verdict& verdict : judge_function(test, label, value)) context.report(std::move(verdict));
 }
 
 void test_value(const Keywords& test, Context& context) {
@@ -72,7 +72,7 @@ void test_value(const Keywords& test, Context& context) {
   const double value = evaluate_named(function, names, at, test.span_of("NOM_PARA"));
   std::string label = name_in_verdicts(test);
   for (std::size_t i = 0; i < at.size(); ++i) label += fmt::format("{} {}={:g}", i == 0 ? " at" : ",", names[i], at[i]);
-  for (Verdict& verdict : judge(test, "TEST_FONCTION", label, value)) context.report(std::move(verdict));
+  for (Verdict& verdict : judge_function(test, label, value)) context.report(std::move(verdict));
 }
 
 std::string attribute_of(const solver::TabulatedFunction& table, const std::string& name) {

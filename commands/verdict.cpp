@@ -47,9 +47,20 @@ TestedValue nearest_to(const TestedValue& computed, const std::vector<Number>& r
   });
 }
 
-std::optional<TestedValue> given_reference(const Keywords& test, const std::string& stem, const TestedValue& computed) {
-  if (test.given(stem)) return nearest_to(computed, test.reals(stem));
-  if (test.given(stem + "_I")) return nearest_to(computed, test.integers(stem + "_I"));
+/// Whether the references are compared without their signs as well.
+enum class Signs : std::uint8_t { kept, dropped };
+
+template <class Number>
+TestedValue reference_among(std::vector<Number> references, Signs signs, const TestedValue& computed) {
+  if (signs == Signs::dropped)
+    for (Number& reference : references) reference = std::abs(reference);
+  return nearest_to(computed, references);
+}
+
+std::optional<TestedValue> given_reference(const Keywords& test, const std::string& stem, Signs signs,
+                                           const TestedValue& computed) {
+  if (test.given(stem)) return reference_among(test.reals(stem), signs, computed);
+  if (test.given(stem + "_I")) return reference_among(test.integers(stem + "_I"), signs, computed);
   if (test.given(stem + "_K")) return test.texts(stem + "_K").front();
   return std::nullopt;
 }
@@ -71,32 +82,34 @@ Verdict verdict_at(const Keywords& test, const std::string& command, const std::
   return verdict;
 }
 
-}  // namespace
+bool drops_signs(const Keywords& test) { return test.has("VALE_ABS") && test.text("VALE_ABS") == "OUI"; }
 
-std::vector<Verdict> judge(const Keywords& test, const std::string& command, const std::string& label,
-                           const TestedValue& computed) {
-  Verdict common = verdict_at(test, command, label, computed);
-  common.relative = test.texts("CRITERE").empty() || test.texts("CRITERE").front() == "RELATIF";
-  if (test.has("VALE_ABS") && test.text("VALE_ABS") == "OUI") {
-    if (const auto* real = std::get_if<double>(&computed)) common.computed = std::abs(*real);
-    if (const auto* integer = std::get_if<std::int64_t>(&computed)) common.computed = std::abs(*integer);
-  }
+/// What VALE_CALC and VALE_REFE share: the value, without its sign where VALE_ABS asks for that, and CRITERE.
+Verdict verdict_on_number(const Keywords& test, const std::string& command, const std::string& label,
+                          const TestedValue& computed) {
+  Verdict verdict = verdict_at(test, command, label, computed);
+  verdict.relative = test.texts("CRITERE").empty() || test.texts("CRITERE").front() == "RELATIF";
+  if (!drops_signs(test)) return verdict;
+  if (const auto* real = std::get_if<double>(&computed)) verdict.computed = std::abs(*real);
+  if (const auto* integer = std::get_if<std::int64_t>(&computed)) verdict.computed = std::abs(*integer);
+  return verdict;
+}
 
+std::vector<Verdict> verdicts_on(const Keywords& test, const Verdict& common, Signs signs,
+                                 std::optional<double> order_of_magnitude) {
   std::vector<Verdict> verdicts;
-  if (const auto reference = given_reference(test, "VALE_CALC", *common.computed)) {
+  if (const auto reference = given_reference(test, "VALE_CALC", signs, *common.computed)) {
     Verdict verdict = common;
     verdict.kind = "VALE_CALC";
     verdict.reference_type = "NON_REGRESSION";
     verdict.reference = *reference;
     verdict.tolerance = test.reals("TOLE_MACHINE").front();
-    if (test.given("ORDRE_GRANDEUR")) {
-      verdict.order_of_magnitude = test.real("ORDRE_GRANDEUR");
-      verdict.relative = true;
-    }
+    verdict.order_of_magnitude = order_of_magnitude;
+    if (order_of_magnitude) verdict.relative = true;
     compare(verdict);
     verdicts.push_back(std::move(verdict));
   }
-  if (const auto reference = given_reference(test, "VALE_REFE", *common.computed)) {
+  if (const auto reference = given_reference(test, "VALE_REFE", signs, *common.computed)) {
     Verdict verdict = common;
     verdict.kind = "VALE_REFE";
     verdict.reference_type = test.has("REFERENCE") ? test.text("REFERENCE") : "NON_DEFINI";
@@ -106,6 +119,20 @@ std::vector<Verdict> judge(const Keywords& test, const std::string& command, con
     verdicts.push_back(std::move(verdict));
   }
   return verdicts;
+}
+
+}  // namespace
+
+std::vector<Verdict> judge(const Keywords& test, const std::string& command, const std::string& label,
+                           const TestedValue& computed) {
+  std::optional<double> order_of_magnitude;
+  if (test.given("ORDRE_GRANDEUR")) order_of_magnitude = test.real("ORDRE_GRANDEUR");
+  return verdicts_on(test, verdict_on_number(test, command, label, computed),
+                     drops_signs(test) ? Signs::dropped : Signs::kept, order_of_magnitude);
+}
+
+std::vector<Verdict> judge_function(const Keywords& test, const std::string& label, double computed) {
+  return verdicts_on(test, verdict_on_number(test, "TEST_FONCTION", label, computed), Signs::kept, std::nullopt);
 }
 
 Verdict judge_text(const Keywords& test, const std::string& command, const std::string& label,

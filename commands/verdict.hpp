@@ -31,9 +31,13 @@ struct Verdict {
 };
 
 /// Judges a value against every reference that the keywords of a TEST_* occurrence give (VALE_CALC, VALE_CALC_I,
-/// VALE_REFE, VALE_REFE_I ...; CRITERE, TOLE_MACHINE, PRECISION, ORDRE_GRANDEUR, VALE_ABS).
+/// VALE_REFE, VALE_REFE_I ...; CRITERE, TOLE_MACHINE, PRECISION, ORDRE_GRANDEUR, VALE_ABS, which drops all signs).
 std::vector<Verdict> judge(const interpreter::Keywords& test, const std::string& command, const std::string& label,
                            const TestedValue& computed);
+
+/// The same of TEST_FONCTION, where VALE_ABS leaves references their signs and ORDRE_GRANDEUR counts for nothing
+/// (17.3).
+std::vector<Verdict> judge_function(const interpreter::Keywords& test, const std::string& label, double computed);
 
 /// Judges a text against the one that the file expects: kind VALE_REFE.
 Verdict judge_text(const interpreter::Keywords& test, const std::string& command, const std::string& label,

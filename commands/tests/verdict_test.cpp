@@ -62,6 +62,16 @@ TEST_CASE("A relative test of zero is absolute unless an order of magnitude is g
   CHECK(scaled.passed);
 }
 
+TEST_CASE("VALE_ABS drops the signs of references too, of a function's value alone") {
+  const Keyword magnitudes = keyword("VALE_ABS", Value("OUI"));
+  const auto test = test_with({reals("VALE_CALC", -2.0), reals("VALE_REFE", 2.0), magnitudes});
+  for (const auto& verdict : judge(test, "TEST_TABLE", "x", -2.0)) CHECK(verdict.passed);
+  CHECK_FALSE(judge_function(test, "x", -2.0)[0].passed);
+  CHECK(judge_function(test, "x", -2.0)[1].passed);
+  const auto integers = test_with({keyword("VALE_CALC_I", Value::tuple({Value(-3), Value(7)})), magnitudes});
+  CHECK(judge(integers, "TEST_TABLE", "x", std::int64_t{-3})[0].passed);
+}
+
 TEST_CASE("CRITERE ABSOLU compares differences") {
   const auto verdict = judge(test_with({reals("VALE_CALC", 1e6), keyword("CRITERE", Value::tuple({Value("ABSOLU")}))}),
                              "TEST_RESU", "x", 1e6 + 0.1)[0];

@@ -57,18 +57,30 @@ int unit_of(const LinearRelation& relation) {
 
 }  // namespace
 
-double Elimination::Condition::value(double time) const {
+double Elimination::Addend::value(const Point& at, double time) const {
   const double prescribed = relation->function ? relation->function(at, time) : relation->value;
-  return reference + (multiplier ? multiplier(time) * prescribed : prescribed);
+  return multiplier ? multiplier(time) * prescribed : prescribed;
 }
 
-std::string Elimination::Condition::origin() const { return relation->origin ? *relation->origin : "origin unknown"; }
+double Elimination::Condition::value(double time) const {
+  double sum = reference;
+  for (const Addend& addend : addends) sum += addend.value(at, time);
+  return sum;
+}
+
+std::string Elimination::Condition::origin() const {
+  std::vector<std::string> origins;
+  for (const Addend& addend : addends)
+    origins.push_back(addend.relation->origin ? *addend.relation->origin : "origin unknown");
+  return fmt::format("{}", fmt::join(origins, " and "));
+}
 
 Elimination::Elimination(const Mesh& mesh, const DofMap& dofs, std::span<const AppliedLoad> loads) {
   std::vector<SparseRow> rows;
+  KinematicRows kinematic;
   for (const AppliedLoad& applied : loads) {
     for (const LinearRelation& relation : applied.load->relations)
-      rows.push_back(add_condition(mesh, dofs, applied, relation));
+      add_condition(mesh, dofs, applied, relation, rows, kinematic);
   }
   GaussJordan reduction = gauss_jordan(rows, dofs.size());
   dependencies_ = std::move(reduction.dependencies);
@@ -76,30 +88,39 @@ Elimination::Elimination(const Mesh& mesh, const DofMap& dofs, std::span<const A
   check_constant_dependencies();
 }
 
-SparseRow Elimination::add_condition(const Mesh& mesh, const DofMap& dofs, const AppliedLoad& applied,
-                                     const LinearRelation& relation) {
-  const auto last = std::ranges::max_element(relation.terms, {}, &LinearRelation::Term::node);
-  const Point at = last == relation.terms.end() ? Point{} : mesh.nodes[static_cast<std::size_t>(last->node)];
-  const bool constant = !relation.function && !applied.multiplier && !applied.differential;
-  conditions_.push_back({applied.load,
-                         &relation,
-                         applied.multiplier,
-                         at,
-                         unit_of(relation),
-                         describe(relation, mesh),
-                         constant,
-                         {},
-                         0.0});
+void Elimination::add_condition(const Mesh& mesh, const DofMap& dofs, const AppliedLoad& applied,
+                                const LinearRelation& relation, std::vector<SparseRow>& rows,
+                                KinematicRows& kinematic) {
+  const Addend addend{applied.load, &relation, applied.multiplier};
+  const std::string origin = relation.origin ? *relation.origin : "origin unknown";
   std::map<int, double> coefficients;
   for (const auto& term : relation.terms) {
     const int dof = dofs.dof(term.node, term.component);
-    if (dof < 0) unknown_dof(mesh, dofs, term, conditions_.back().origin());
+    if (dof < 0) unknown_dof(mesh, dofs, term, origin);
     coefficients[dof] += term.coefficient;
   }
   std::erase_if(coefficients, [](const auto& term) { return term.second == 0.0; });
   SparseRow row{coefficients.begin(), coefficients.end()};
-  if (applied.differential) conditions_.back().differential = row;
-  return row;
+  const bool constant = !relation.function && !applied.multiplier && !applied.differential;
+  if (applied.load->multipliers_per_relation == 0 && row.size() == 1) {
+    const auto [known, is_first] = kinematic.try_emplace(row.front().first, rows.size());
+    if (!is_first && rows[known->second] == row) {
+      Condition& condition = conditions_[known->second];
+      condition.addends.push_back(addend);
+      condition.constant = condition.constant && constant;
+      if (applied.differential) condition.differential = row;
+      return;
+    }
+  }
+  const auto last = std::ranges::max_element(relation.terms, {}, &LinearRelation::Term::node);
+  const Point at = last == relation.terms.end() ? Point{} : mesh.nodes[static_cast<std::size_t>(last->node)];
+  conditions_.push_back({.addends = {addend},
+                         .at = at,
+                         .unit = unit_of(relation),
+                         .text = describe(relation, mesh),
+                         .constant = constant,
+                         .differential = applied.differential ? row : SparseRow{}});
+  rows.push_back(std::move(row));
 }
 
 void Elimination::measure_from(const Eigen::VectorXd& reference) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <span>
 #include <string>
@@ -21,8 +22,9 @@ namespace comma::solver {
 
 /// Sparse Gauss-Jordan elimination with pivoting on the largest coefficient. Coefficients do not change with time; the
 /// right-hand sides c(t) do, so g(t) = G c(t). Redundant relations are found and dropped; a contradictory pair is an
-/// error that names both origins. Keeps the loads alive, nothing else of its arguments. Not for use from several
-/// threads at once (reduce caches its plan).
+/// error that names both origins. What several loads without multipliers (AFFE_CHAR_CINE) impose on one degree of
+/// freedom adds up (17.3). Keeps the loads alive, nothing else of its arguments. Not for use from several threads at
+/// once (reduce caches its plan).
 class Elimination {
  public:
   /// `mesh`: for the points at which functions are evaluated and for the names of nodes in messages.
@@ -56,10 +58,15 @@ class Elimination {
   static constexpr int unit_count = 4;
 
   /// One relation with what its right-hand side needs.
-  struct Condition {
+  struct Addend {
     std::shared_ptr<const Load> load;  ///< keeps `relation` alive
     const LinearRelation* relation;
     TimeFunction multiplier;
+    double value(const Point& at, double time) const;
+  };
+  /// A row, and all that its right-hand side adds up.
+  struct Condition {
+    std::vector<Addend> addends;  ///< the row is that of the first
     Point at;
     int unit;          ///< see unit_of()
     std::string text;  ///< "DX at N3", "DX at N1 - DX at N2"
@@ -71,8 +78,10 @@ class Elimination {
     std::string origin() const;
   };
 
-  SparseRow add_condition(const Mesh& mesh, const DofMap& dofs, const AppliedLoad& applied,
-                          const LinearRelation& relation);
+  /// Index of the row that a load without multipliers has for a degree of freedom.
+  using KinematicRows = std::map<int, std::size_t>;
+  void add_condition(const Mesh& mesh, const DofMap& dofs, const AppliedLoad& applied, const LinearRelation& relation,
+                     std::vector<SparseRow>& rows, KinematicRows& kinematic);
   void set_transformation(const GaussJordan& reduction, int full_size);
   Eigen::VectorXd values(double time) const;
   /// The largest values that conditions of each unit prescribe.

@@ -181,15 +181,11 @@ TabulatedFunction simpson_integral(const TabulatedFunction& function, double at_
 }
 
 double mean_between(const TabulatedFunction& function, double from, double to) {
-  TabulatedFunction between{.x = {from}, .y = {function(from)}};
-  for (std::size_t i = 0; i < function.x.size(); ++i) {
-    if (function.x[i] <= from || function.x[i] >= to) continue;
-    between.x.push_back(function.x[i]);
-    between.y.push_back(function.y[i]);
-  }
-  between.x.push_back(to);
-  between.y.push_back(function(to));
-  return integral(between, 0.0).y.back() / (to - from);
+  TabulatedFunction sum = integral(function, 0.0);
+  sum.y_scale = Scale::linear;  // it begins at zero
+  sum.left = function.left;
+  sum.right = function.right;
+  return (sum(to) - sum(from)) / (to - from);
 }
 
 TabulatedFunction derivative(const TabulatedFunction& function) {

@@ -51,7 +51,9 @@ TabulatedFunction integral(const TabulatedFunction& function, double at_first);
 /// By Simpson's rule, over the parabola through each point and the two before it; up to the second point by the
 /// trapezoidal rule, so that every other value counts from there.
 TabulatedFunction simpson_integral(const TabulatedFunction& function, double at_first);
-/// The mean value from one abscissa to a later one, by the trapezoidal rule through the points between them.
+/// The integral from one abscissa to a later one by the distance between them. The integral is tabulated at the points
+/// of the function, linear between them and with its extensions beyond them (17.3): only an interval between two points
+/// has the mean that the trapezoidal rule gives. Throws Error `out-of-function` beyond an end that excludes.
 double mean_between(const TabulatedFunction& function, double from, double to);
 /// The slope between the points before and after (17.3), at the ends of the one side. Throws Error `out-of-function`
 /// for a single point.

@@ -84,6 +84,26 @@ TEST_CASE("imposed degrees of freedom leave the unknowns, the others stay in ord
   CHECK(scene.elimination.offset(0.0) == expected);
 }
 
+TEST_CASE("what loads without multipliers impose on one unknown adds up, and meets other conditions as a sum") {
+  const auto kinematic = [](std::vector<LinearRelation> relations, TimeFunction multiplier = {}) {
+    auto load = std::make_shared<Load>(*applied(relations).front().load);
+    load->multipliers_per_relation = 0;
+    return AppliedLoad{load, std::move(multiplier)};
+  };
+  const Model model = nodes_in_a_row(2);
+  const DofMap dofs(model);
+  std::vector<AppliedLoad> loads{kinematic({relation({{0, dx}}, 0.1), relation({{0, dy}}, 7.0)}),
+                                 kinematic({relation({{0, dx}}, 0.2)}, [](double time) { return time; })};
+  const Elimination sum(*model.mesh, dofs, loads);
+  CHECK(sum.reduced_size() == 2);
+  CHECK(sum.offset(3.0)[dofs.dof(0, dx)] == Approx(0.7));
+  CHECK(sum.offset(3.0)[dofs.dof(0, dy)] == 7.0);
+  loads.push_back(applied({relation({{0, dx}}, 0.7)}).front());
+  const Elimination held(*model.mesh, dofs, loads);
+  CHECK_NOTHROW(held.offset(3.0));
+  CHECK_THROWS_AS(held.offset(1.0), Error);
+}
+
 TEST_CASE("without conditions nothing is eliminated") {
   const Scene scene(2, {});
   CHECK(scene.elimination.reduced_size() == 4);

@@ -60,12 +60,19 @@ TEST_CASE("the trapezoidal rule integrates a polygon exactly", "[functions]") {
   CHECK(area.y == std::vector<double>{5.0, 9.0, 13.0});
 }
 
-TEST_CASE("the mean over an interval counts the points within it, and ends that lie between points", "[functions]") {
-  const TabulatedFunction hat{.x = {0.0, 1.0, 3.0}, .y = {0.0, 4.0, 0.0}};
-  CHECK(mean_between(hat, 0.0, 3.0) == exactly(2.0));
-  CHECK(mean_between(hat, 0.5, 2.0) == exactly(3.0));
-  CHECK(mean_between(hat, 1.5, 2.5) == exactly(2.0));
-  CHECK_THROWS_AS(mean_between(hat, 0.5, 3.5), Error);
+TEST_CASE("the mean over an interval comes from the integral at the points, linear between them", "[functions]") {
+  // Figures of Code_Aster 17.3.
+  TabulatedFunction kinked{.x = {0.0, 2.0, 4.0}, .y = {1.0, 3.0, -1.0}};
+  CHECK(mean_between(kinked, 0.0, 4.0) == exactly(1.5));
+  CHECK(mean_between(kinked, 0.5, 3.0) == exactly(1.6));
+  CHECK_THROWS_AS(mean_between(kinked, 0.5, 4.5), Error);
+  TabulatedFunction rising{.x = {1.0, 2.0, 4.0}, .y = {1.0, 3.0, 8.0}, .right = Extension::constant};
+  CHECK(mean_between(rising, 1.5, 5.0) == Approx(3.428571428571));
+  CHECK(mean_between(rising, 5.0, 7.0) == 0.0);
+  rising.right = Extension::linear;
+  CHECK(mean_between(rising, 1.5, 5.0) == exactly(5.0));
+  rising.x_scale = Scale::logarithmic;
+  CHECK(mean_between(rising, 1.5, 3.0) == Approx(4.843108337660));
 }
 
 TEST_CASE("Simpson's rule integrates a parabola exactly at every other of uneven points", "[functions]") {
