@@ -32,7 +32,7 @@ class Tables {
     if (all_.empty() || !concept_data.parameters().empty())
       throw DiagnosticError("unsupported", fmt::format("CALC_FONCTION: {} is no table of one parameter", handle->name),
                             operation.span_of(keyword), "tabulate a formula by CALC_FONC_INTERP");
-    const double at = all_.front()->x.front();
+    const double at = 1.0;  // it counts as a point of the sum (17.3)
     constants_.push_back({.x = {at},
                           .y = {concept_data.evaluate({&at, 1})},
                           .left = solver::Extension::constant,
@@ -128,6 +128,18 @@ TabulatedFunction derivative(const Keywords& operation) {
   return named(solver::derivative(function), next_of(function.result, 1));
 }
 
+TabulatedFunction composition(const Keywords& operation) {
+  const TabulatedFunction& outer = table_of(operation, "FONC_RESU");
+  const TabulatedFunction& inner = table_of(operation, "FONC_PARA");
+  if (inner.result != outer.parameter)
+    throw DiagnosticError(
+        "other-parameter",
+        fmt::format("CALC_FONCTION: {} depends on {}, and {} gives {}", operation.concept_of("FONC_RESU")->name,
+                    outer.parameter, operation.concept_of("FONC_PARA")->name, inner.result),
+        operation.span_of("FONC_PARA"), fmt::format("define it with NOM_RESU='{}'", outer.parameter));
+  return solver::composition(outer, inner);
+}
+
 TabulatedFunction computed(const Call& call) {
   const auto only = [&](const char* keyword) -> const Keywords& { return call.factor(keyword); };
   if (call.given("COMB")) return combined(call);
@@ -144,8 +156,7 @@ TabulatedFunction computed(const Call& call) {
   if (call.given("INTEGRE")) return integral(only("INTEGRE"));
   if (call.given("DERIVE")) return derivative(only("DERIVE"));
   if (call.given("INVERSE")) return named(solver::inverse(table_of(only("INVERSE"))), "TOUTRESU");
-  const Keywords& composed = only("COMPOSE");
-  return solver::composition(table_of(composed, "FONC_RESU"), table_of(composed, "FONC_PARA"));
+  return composition(only("COMPOSE"));
 }
 
 }  // namespace
@@ -159,6 +170,7 @@ Product calc_fonction(const Call& call, Context&) {
   if (call.has("NOM_PARA")) function.parameter = call.text("NOM_PARA");
   if (call.has("NOM_RESU")) function.result = call.text("NOM_RESU");
   read_shape(call, function);
+  check_scales(call, function);
   return std::make_shared<TabulatedConcept>(std::move(function));
 }
 

@@ -51,6 +51,7 @@ Product defi_fonction(const Call& call, Context&) {
   read_points(call, function);
   sort_points(call, function);
   read_shape(call, function);
+  check_scales(call, function);
   return std::make_shared<TabulatedConcept>(std::move(function));
 }
 

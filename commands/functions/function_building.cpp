@@ -56,4 +56,19 @@ void check_rising(const interpreter::Keywords& keywords, const std::string& keyw
   }
 }
 
+void check_scales(const interpreter::Keywords& keywords, const solver::TabulatedFunction& function) {
+  for (std::size_t i = 0; i < function.x.size(); ++i) {
+    const bool wrong_x = function.x_scale == solver::Scale::logarithmic && !(function.x[i] > 0.0);
+    const bool wrong_y = function.y_scale == solver::Scale::logarithmic && !(function.y[i] > 0.0);
+    if (!wrong_x && !wrong_y) continue;
+    throw interpreter::DiagnosticError(
+        "out-of-bounds",
+        fmt::format("the function is {:g} at {} = {:g}, and the scale of its {} is logarithmic", function.y[i],
+                    function.parameter, function.x[i], wrong_x ? "abscissas" : "ordinates"),
+        keywords.has("INTERPOL") ? keywords.span_of("INTERPOL") : keywords.span,
+        wrong_x ? "leave the point out, or give INTERPOL=('LIN', ...)"
+                : "leave the point out, or give INTERPOL=(..., 'LIN')");
+  }
+}
+
 }  // namespace comma::commands

@@ -24,4 +24,7 @@ void read_pairs(const interpreter::Keywords& keywords, solver::TabulatedFunction
 /// Throws DiagnosticError `wrong-order` at `keyword` when the abscissas do not rise.
 void check_rising(const interpreter::Keywords& keywords, const std::string& keyword, const std::vector<double>& values);
 
+/// Throws DiagnosticError `out-of-bounds` where a point is not positive along an axis whose scale is logarithmic.
+void check_scales(const interpreter::Keywords& keywords, const solver::TabulatedFunction& function);
+
 }  // namespace comma::commands

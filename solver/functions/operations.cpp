@@ -33,11 +33,20 @@ TabulatedFunction without_extensions(TabulatedFunction function) {
   return function;
 }
 
-/// At each of the common abscissas `join` of the functions' values.
+/// Rising; those that differ by rounding only are one.
+std::vector<double> all_abscissas(Functions functions) {
+  std::vector<double> all;
+  for (const TabulatedFunction* function : functions) all.insert(all.end(), function->x.begin(), function->x.end());
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end(), is_same), all.end());
+  return all;
+}
+
+/// At each of the abscissas `join` of the functions' values.
 template <class Join>
-TabulatedFunction joined(Functions functions, Join join) {
+TabulatedFunction joined(Functions functions, std::vector<double> abscissas, Join join) {
   TabulatedFunction result = shape_of(*functions.front());
-  result.x = common_abscissas(functions);
+  result.x = std::move(abscissas);
   std::vector<double> values(functions.size());
   for (const double x : result.x) {
     std::ranges::transform(functions, values.begin(),
@@ -50,10 +59,7 @@ TabulatedFunction joined(Functions functions, Join join) {
 }  // namespace
 
 std::vector<double> common_abscissas(Functions functions) {
-  std::vector<double> all;
-  for (const TabulatedFunction* function : functions) all.insert(all.end(), function->x.begin(), function->x.end());
-  std::ranges::sort(all);
-  all.erase(std::unique(all.begin(), all.end(), is_same), all.end());
+  std::vector<double> all = all_abscissas(functions);
   std::erase_if(all, [&](double x) {
     return std::ranges::any_of(functions, [x](const TabulatedFunction* function) {
       const auto& own = function->x;
@@ -72,24 +78,24 @@ TabulatedFunction combination(Functions functions, std::span<const double> coeff
   const auto sum = [&](const std::vector<double>& values) {
     return std::inner_product(values.begin(), values.end(), coefficients.begin(), 0.0);
   };
-  return joined(functions, sum);
+  return joined(functions, common_abscissas(functions), sum);
 }
 
 TabulatedFunction product(Functions functions) {
   const auto multiply = [](const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 1.0, std::multiplies<>());
   };
-  return joined(functions, multiply);
+  return joined(functions, common_abscissas(functions), multiply);
 }
 
 TabulatedFunction mean(Functions functions) {
-  return joined(functions, [](const std::vector<double>& values) {
+  return joined(functions, all_abscissas(functions), [](const std::vector<double>& values) {
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   });
 }
 
 TabulatedFunction fractile(Functions functions, double share) {
-  return joined(functions, [share](std::vector<double> values) {
+  return joined(functions, all_abscissas(functions), [share](std::vector<double> values) {
     std::ranges::sort(values);
     const double place = share * static_cast<double>(values.size() - 1);
     const auto below = static_cast<std::size_t>(place);
@@ -98,11 +104,13 @@ TabulatedFunction fractile(Functions functions, double share) {
 }
 
 TabulatedFunction upper_envelope(Functions functions) {
-  return joined(functions, [](const std::vector<double>& values) { return std::ranges::max(values); });
+  return joined(functions, all_abscissas(functions),
+                [](const std::vector<double>& values) { return std::ranges::max(values); });
 }
 
 TabulatedFunction lower_envelope(Functions functions) {
-  return joined(functions, [](const std::vector<double>& values) { return std::ranges::min(values); });
+  return joined(functions, all_abscissas(functions),
+                [](const std::vector<double>& values) { return std::ranges::min(values); });
 }
 
 TabulatedFunction resampled(const TabulatedFunction& function, std::vector<double> abscissas) {
@@ -119,6 +127,9 @@ TabulatedFunction mapped(const TabulatedFunction& function, const std::function<
 }
 
 TabulatedFunction in_succession(const TabulatedFunction& first, const TabulatedFunction& second, Overlap counts) {
+  if (first.x_scale != second.x_scale || first.y_scale != second.y_scale)
+    throw Error("other-scales", "the functions have not the same interpolation",
+                "give both the same INTERPOL, by CALC_FONC_INTERP");
   const bool as_written = first.x.front() < second.x.front();
   const TabulatedFunction& left = as_written ? first : second;
   const TabulatedFunction& right = as_written ? second : first;
@@ -153,6 +164,7 @@ TabulatedFunction polynomial_fit(const TabulatedFunction& function, int degree) 
       powers(i, k) = powers(i, k - 1) * (function.x[static_cast<std::size_t>(i)] - middle) / half;
   const Eigen::Map<const Eigen::VectorXd> values(function.y.data(), count);
   TabulatedFunction result = function;
+  result.x_scale = result.y_scale = Scale::linear;
   Eigen::Map<Eigen::VectorXd>(result.y.data(), count) = powers * powers.householderQr().solve(values);
   return result;
 }
@@ -221,8 +233,10 @@ TabulatedFunction inverse(const TabulatedFunction& function) {
 }
 
 TabulatedFunction composition(const TabulatedFunction& outer, const TabulatedFunction& inner) {
-  TabulatedFunction result = mapped(inner, outer);
-  result.result = outer.result;
+  TabulatedFunction result = shape_of(outer);
+  result.parameter = inner.parameter;
+  result.x = inner.x;
+  std::ranges::transform(inner.y, std::back_inserter(result.y), std::cref(outer));
   return result;
 }
 

@@ -1,9 +1,9 @@
 // Functions made of tabulated functions: sums, products, envelopes, integrals, derivatives (U4.32.04).
 //
-// What combines several functions is tabulated at all their abscissas, as far as every one of them is defined there:
-// beyond an end that excludes, it has no points. The new table takes parameter, scales and extensions of the first
-// function. All throw Error `out-of-function` when the functions have no abscissa in common, or where one cannot be
-// evaluated.
+// What combines several functions is tabulated at all their abscissas; sums and products as far as every one of them is
+// defined there: beyond an end that excludes, they have no points. The new table takes parameter, scales and extensions
+// of the first function. All throw Error `out-of-function` when the functions have no abscissa in common, or where one
+// cannot be evaluated.
 #pragma once
 
 #include <cstdint>
@@ -23,6 +23,7 @@ std::vector<double> common_abscissas(Functions functions);
 /// sum of coefficients[i] * functions[i]
 TabulatedFunction combination(Functions functions, std::span<const double> coefficients);
 TabulatedFunction product(Functions functions);
+/// This and those below at the points of all functions: error `out-of-function` where one of them excludes one (17.3).
 TabulatedFunction mean(Functions functions);
 /// At each abscissa the value below which that share (0 to 1) of the functions lies, linear between those in order: 0.5
 /// is the median.
@@ -39,10 +40,11 @@ TabulatedFunction mapped(const TabulatedFunction& function, const std::function<
 /// Which of two functions counts where both are.
 enum class Overlap : std::uint8_t { left, right };
 /// The points of one function and beyond them those of another, with the extensions at their ends. The one that begins
-/// first is the left one, `second` where both begin alike (17.3). Scales and names are those of `first`.
+/// first is the left one, `second` where both begin alike (17.3). Scales and names are those of `first`; error
+/// `other-scales` where `second` has others.
 TabulatedFunction in_succession(const TabulatedFunction& first, const TabulatedFunction& second, Overlap counts);
-/// The polynomial of least squares through the points, at their abscissas. Throws Error `out-of-function` where they
-/// are no more than the degree.
+/// The polynomial of least squares through the points, at their abscissas and linear between them (17.3). Throws Error
+/// `out-of-function` where they are no more than the degree.
 TabulatedFunction polynomial_fit(const TabulatedFunction& function, int degree);
 
 /// By the trapezoidal rule from the first abscissa, where it is `at_first`. Integrals and derivatives do not go on
@@ -61,7 +63,8 @@ TabulatedFunction derivative(const TabulatedFunction& function);
 /// x(y), with scales and ends exchanged, excluded where they were constant; the name of the parameter stays (17.3).
 /// Throws Error `out-of-function` when the ordinates neither rise nor fall strictly.
 TabulatedFunction inverse(const TabulatedFunction& function);
-/// outer(inner(x)) at the abscissas of the inner function, whose shape it takes.
+/// outer(inner(x)) at the abscissas of the inner function, whose parameter it takes; scales, extensions and the name of
+/// the result are those of the outer one (17.3).
 TabulatedFunction composition(const TabulatedFunction& outer, const TabulatedFunction& inner);
 
 }  // namespace comma::solver

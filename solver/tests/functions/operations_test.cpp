@@ -120,6 +120,8 @@ TEST_CASE("a function and its inverse undo each other", "[functions]") {
     CHECK(inverse(back).y == f.y);
     const TabulatedFunction same = composition(back, f);
     CHECK(same.y == f.x);
+    CHECK(same.parameter == f.parameter);
+    CHECK(same.left == back.left);
   }
   CHECK(inverse(falling).parameter == falling.parameter);
   // What is constant has no inverse.
@@ -151,6 +153,15 @@ TEST_CASE("functions one after the other keep the ends of both, and one of them 
   CHECK(in_succession(late, line, Overlap::left).x == std::vector<double>{0.0, 1.0, 4.0, 5.0});
 }
 
+TEST_CASE("means, envelopes and fractiles want all functions at the points of all, sums do not", "[functions]") {
+  const TabulatedFunction longer{.x = {0.0, 9.0}, .y = {0.0, 9.0}}, shorter{.x = {0.0, 4.0}, .y = {1.0, 1.0}};
+  const Pointers two{&longer, &shorter};
+  CHECK(combination(two, std::vector{1.0, 1.0}).x == std::vector<double>{0.0, 4.0});
+  CHECK_THROWS_AS(mean(two), Error);
+  CHECK_THROWS_AS(upper_envelope(two), Error);
+  CHECK_THROWS_AS(fractile(two, 0.5), Error);
+}
+
 TEST_CASE("a fractile of functions goes from the lower to the upper envelope", "[functions]") {
   const Pointers two{&line, &bump};
   CHECK(fractile(two, 0.0).y == lower_envelope(two).y);
@@ -159,6 +170,10 @@ TEST_CASE("a fractile of functions goes from the lower to the upper envelope", "
 }
 
 TEST_CASE("least squares give a polynomial back, and the mean for degree 0", "[functions]") {
+  TabulatedFunction bent = parabola();
+  bent.x_scale = Scale::logarithmic;
+  CHECK(polynomial_fit(bent, 2).x_scale == Scale::linear);
+  CHECK_THROWS_AS(in_succession(bent, parabola(), Overlap::left), Error);
   const TabulatedFunction fit = polynomial_fit(parabola(), 2);
   for (std::size_t i = 0; i < fit.x.size(); ++i) CHECK(fit.y[i] == Approx(fit.x[i] * fit.x[i]).margin(1e-14));
   CHECK(polynomial_fit(bump, 0).y[1] == exactly(4.0 / 3.0));
