@@ -30,8 +30,8 @@ struct ContactPoint {
   std::array<double, max_facet_nodes> shape{};  ///< of the slave face's nodes
   double weight = 0.0;  ///< initial area (length in the plane; times the radius where axisymmetric)
   PairingStatus status = PairingStatus::outside;
-  int facet = -1;                                      ///< master cell, when paired
-  int beside = -1;                                     ///< the nearest master cell, when not paired
+  int facet = -1;             ///< master cell, when paired
+  int beside = -1;            ///< the nearest master cell, when not paired
   bool faces_beside = false;  ///< its place lies on that cell: it is too far away alone, and counts as open in results
   std::array<double, max_facet_nodes> master_shape{};  ///< of the nodes of either
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();    ///< unit, from master to slave

@@ -182,6 +182,10 @@ SkewMatrix Assembler::elastic_skew_stiffness(const Eigen::VectorXd& u) const {
   return blocks_->skew_sum(u, state_, [](const ElementBlock& block) { return !block.is_elastically_symmetric(); });
 }
 
+SkewMatrix Assembler::initial_skew_stiffness(const Eigen::VectorXd& u) const {
+  return blocks_->skew_sum(u, state_, [](const ElementBlock& block) { return !block.is_initially_symmetric(); });
+}
+
 Eigen::VectorXd Assembler::internal_forces(const Eigen::VectorXd& u) const {
   return with_initial(blocks_->sum(&ElementBlock::add_internal_forces, u, state_));
 }

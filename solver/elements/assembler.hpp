@@ -76,6 +76,8 @@ class Assembler {
   SkewMatrix skew_stiffness(const Eigen::VectorXd& u) const;
   /// The same beside elastic_stiffness().
   SkewMatrix elastic_skew_stiffness(const Eigen::VectorXd& u) const;
+  /// The same beside initial_stiffness().
+  SkewMatrix initial_skew_stiffness(const Eigen::VectorXd& u) const;
 
   /// Internal forces at u (n), those of restrained thermal expansion included; accumulated in extended precision so
   /// that the equilibrium of a stiff body held by weak springs is not drowned in rounding.

@@ -85,6 +85,8 @@ class ElementBlock {
   virtual bool is_symmetric() const { return true; }
   /// The same of add_elastic_stiffness().
   virtual bool is_elastically_symmetric() const { return is_symmetric(); }
+  /// The same of add_initial_stiffness().
+  virtual bool is_initially_symmetric() const { return is_elastically_symmetric(); }
   /// A symmetric stiffness by which iterations converge where the tangent is none; the symmetric part of the tangent
   /// unless an element knows a better one.
   virtual void add_symmetric_stiffness(const Eigen::VectorXd& u, const VariableState& state,

@@ -1,6 +1,7 @@
 #include "solver/fields/discretisation.hpp"
 
 #include "solver/elements/quadrature.hpp"
+#include "solver/elements/slender/beam_points.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/continuum_points.hpp"
 #include "solver/fields/extrapolation.hpp"
@@ -46,6 +47,9 @@ class PointWeights {
       return at_points(type, boundary_family(type), skins_)[static_cast<std::size_t>(point)][node];
     if (is_plate(model_.formulations[cell]))
       return at_points(type, plate_family(type), plates_)[static_cast<std::size_t>(point)][node];
+    // Section forces are linear between the ends, and results say that they lie here (Code_Aster 17.3).
+    if (is_beam(model_.formulations[cell]) && points == beam_point_count)
+      return at_points(type, "FPG3", beams_)[static_cast<std::size_t>(point)][node];
     if (points == 1) return 1.0 / node_count(type);
     return point == node ? 1.0 : 0.0;  // one point a node
   }
@@ -63,7 +67,7 @@ class PointWeights {
 
   const Model& model_;
   ContinuumPoints continua_;
-  ByType skins_, plates_;
+  ByType skins_, plates_, beams_;
 };
 
 bool is_at_points(const Field& field) {

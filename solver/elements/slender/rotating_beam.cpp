@@ -95,13 +95,8 @@ class RotatingBeam final : public ElementBlock {
         shear_(input.model.formulations[static_cast<std::size_t>(cells.front())] == Formulation::timoshenko_beam),
         cells_(std::move(cells)),
         map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), 2, gather_nodes(mesh_, cells_)) {
-    for (const int cell : cells_) {
-      members_.push_back(member(input, cell));
-      BeamPast past;
-      past.along = initial_chord(cell);
-      past.roll = members_.back().section->roll;
-      past_.push_back(past);
-    }
+    for (const int cell : cells_) members_.push_back(member(input, cell));
+    for (int element = 0; element < static_cast<int>(cells_.size()); ++element) past_.push_back(first_past(element));
   }
 
   void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
@@ -120,6 +115,14 @@ class RotatingBeam final : public ElementBlock {
     for (int element = 0; element < map_.element_count(); ++element)
       map_.add(element, plain_tangent(element, u).data(), column_starts, values);
   }
+  void add_initial_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts,
+                             double* values) const override {
+    require_no_strains(state);
+    for (int element = 0; element < map_.element_count(); ++element)
+      map_.add(element, initial_stiffness(element).data(), column_starts, values);
+  }
+  bool is_initially_symmetric() const override { return true; }
+  bool is_initially_linear() const override { return true; }
   void add_starting_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                               double* values) const override {
     add_symmetric_stiffness(u, state, column_starts, values);
@@ -247,11 +250,17 @@ class RotatingBeam final : public ElementBlock {
            Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[static_cast<std::size_t>(nodes[0])].data());
   }
 
-  /// The direction from which rolls count changes its place at the vertical: a beam near it keeps none by its number.
-  double carried_roll(int element, const Eigen::VectorXd& u) const {
+  /// What a beam begins with.
+  BeamPast first_past(int element) const {
     BeamPast first;
     first.along = initial_chord(cells_[static_cast<std::size_t>(element)]);
     first.roll = members_[static_cast<std::size_t>(element)].section->roll;
+    return first;
+  }
+
+  /// The direction from which rolls count changes its place at the vertical: a beam near it keeps none by its number.
+  double carried_roll(int element, const Eigen::VectorXd& u) const {
+    const BeamPast first = first_past(element);
     Vector12d step = unknowns(element, u);
     step.segment<3>(6) -= step.head<3>();
     return roll_of(geometry<double>(first, motion_of(first, step)).axes);
@@ -359,6 +368,14 @@ class RotatingBeam final : public ElementBlock {
                            beam_geometric_stiffness(*own.section, length,
                                                     {section_forces(now.force, 0), section_forces(now.force, 6)}),
                        now.axes);
+  }
+
+  /// Of small displacements from where the beam was at first.
+  BeamMatrix initial_stiffness(int element) const {
+    const Member& own = members_[static_cast<std::size_t>(element)];
+    const BeamPast first = first_past(element);
+    const auto now = geometry<double>(first, motion_of(first, Vector12d::Zero()));
+    return turned_back(uniform_beam<double>(*own.section, own.moduli, first.along.norm(), shear_), now.axes);
   }
 
   /// At the end whose part of the end forces begins at `first`.

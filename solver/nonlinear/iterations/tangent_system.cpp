@@ -210,7 +210,9 @@ std::string TangentSystem::parts_on_springs(const RowMatrix* held) const {
 
 /// The skew half of the tangent, by its strictly lower triangle.
 SkewMatrix TangentSystem::skew(const Eigen::VectorXd& u, TangentKind kind) const {
-  SkewMatrix matrix = is_elastic(kind) ? assembler_.elastic_skew_stiffness(u) : assembler_.skew_stiffness(u);
+  SkewMatrix matrix = kind == TangentKind::elastic     ? assembler_.initial_skew_stiffness(u)
+                      : kind == TangentKind::unloading ? assembler_.elastic_skew_stiffness(u)
+                                                       : assembler_.skew_stiffness(u);
   if (!followers_) return matrix;
   const SkewMatrix change = followers_->tangent(u);
   const SkewMatrix transposed = change.transpose();

@@ -93,3 +93,14 @@ TEST_CASE("what cannot be brought elsewhere says so", "[fields]") {
   const ElementField at_points = brought_to(model, linear_field(*model.mesh), Support::gauss_point, false);
   CHECK_THROWS_WITH(brought_to_nodes(*model.mesh, nullptr, at_points), Catch::Contains("model"));
 }
+
+TEST_CASE("what is linear along a beam is so at its three points", "[fields]") {
+  auto mesh = std::make_shared<Mesh>();
+  mesh->nodes = {{0, 0, 0}, {2, 0, 0}};
+  mesh->add_cell(CellType::seg2, std::array{0, 1});
+  const Model model{mesh, {Formulation::timoshenko_beam}};
+  const ElementField places = brought_to(model, node_coordinates(*mesh), Support::gauss_point, true);
+  REQUIRE(places.points(0) == 3);
+  const double apart = std::sqrt(0.6);
+  for (int point = 0; point < 3; ++point) CHECK(places.at(0, point, 0) == exactly(1.0 + (point - 1) * apart));
+}

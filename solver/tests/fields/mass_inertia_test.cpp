@@ -118,9 +118,8 @@ TEST_CASE("a slanted plate with an offset: a slab about the surface of the mesh"
   }
 }
 
-TEST_CASE(
-    "discrete masses: a point with an offset and a tensor, a segment with one at each end, a point in the plane",
-    "[fields]") {
+TEST_CASE("discrete masses: a point with an offset and a tensor, a segment with one at each end, a point in the plane",
+          "[fields]") {
   auto mesh = std::make_shared<Mesh>();
   mesh->nodes = {{1, 2, 3}, {0, 0, 0}, {4, 0, 0}, {0, 5, 0}};
   mesh->add_cell(CellType::poi1, std::array{0});

@@ -141,3 +141,15 @@ TEST_CASE("a beam in large rotations goes on from its forces and variables as if
   const Eigen::VectorXd expected = whole.internal_forces(bent(1.3));
   CHECK((resumed.internal_forces(bent(1.3)) - expected).norm() <= 1e-12 * expected.norm());
 }
+
+TEST_CASE("ELASTIQUE of a beam in large rotations is that of small ones, wherever it has gone", "[elements]") {
+  for (const Formulation formulation : {Formulation::euler_beam, Formulation::timoshenko_beam}) {
+    const Body body = beam(formulation);
+    const Eigen::MatrixXd expected = body.assembler->stiffness(Eigen::VectorXd::Zero(12));
+    Assembler assembler(body.model, body.materials, body.properties, *body.dofs, &turning);
+    assembler.accept(bent(0.7));
+    const Eigen::MatrixXd found = assembler.initial_stiffness(bent(1.0));
+    CHECK((found - expected).norm() < 1e-12 * expected.norm());
+    CHECK(assembler.initial_skew_stiffness(bent(1.0)).norm() == 0.0);
+  }
+}
