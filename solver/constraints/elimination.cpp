@@ -20,6 +20,8 @@ using Triplet = Eigen::Triplet<double>;
 /// Longer relations are cut in messages.
 constexpr std::size_t most_terms_shown = 4;
 
+std::string origin_of(const LinearRelation& relation) { return relation.origin ? *relation.origin : "origin unknown"; }
+
 std::string describe(const LinearRelation& relation, const Mesh& mesh) {
   std::string text;
   for (std::size_t k = 0; k < relation.terms.size(); ++k) {
@@ -70,8 +72,7 @@ double Elimination::Condition::value(double time) const {
 
 std::string Elimination::Condition::origin() const {
   std::vector<std::string> origins;
-  for (const Addend& addend : addends)
-    origins.push_back(addend.relation->origin ? *addend.relation->origin : "origin unknown");
+  for (const Addend& addend : addends) origins.push_back(origin_of(*addend.relation));
   return fmt::format("{}", fmt::join(origins, " and "));
 }
 
@@ -92,11 +93,10 @@ void Elimination::add_condition(const Mesh& mesh, const DofMap& dofs, const Appl
                                 const LinearRelation& relation, std::vector<SparseRow>& rows,
                                 KinematicRows& kinematic) {
   const Addend addend{applied.load, &relation, applied.multiplier};
-  const std::string origin = relation.origin ? *relation.origin : "origin unknown";
   std::map<int, double> coefficients;
   for (const auto& term : relation.terms) {
     const int dof = dofs.dof(term.node, term.component);
-    if (dof < 0) unknown_dof(mesh, dofs, term, origin);
+    if (dof < 0) unknown_dof(mesh, dofs, term, origin_of(relation));
     coefficients[dof] += term.coefficient;
   }
   std::erase_if(coefficients, [](const auto& term) { return term.second == 0.0; });

@@ -9,9 +9,6 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Of what vanishes along a dead direction between nodes: less than figures are compared by.
-constexpr double dead_weight = 1e-8;
-
 /// What of the multiplier the law takes.
 double pressure_share(const ContactLaw& law) { return law.penalised ? law.pressure_share : 1.0; }
 double shear_share(const ContactLaw& law) { return law.friction_penalised ? law.shear_share : 1.0; }
@@ -189,20 +186,12 @@ ContactLawValue whole_law(const ContactLaw& law, ContactStatus status, const Vec
   return value;
 }
 
-void leave_dead_to_others(const ContactLaw& law, ContactLawValue& value) {
-  if (law.pointwise || law.dead.isZero()) return;
-  const Matrix2d weights = weights_between_nodes(law);
-  value.residual.tail<2>() = weights * value.residual.tail<2>();
-  value.residual_by_multiplier.bottomRows<2>() = weights * value.residual_by_multiplier.bottomRows<2>();
-  value.residual_by_jump.bottomRows<2>() = weights * value.residual_by_jump.bottomRows<2>();
-}
-
 }  // namespace
 
 ContactLawValue contact_law(const ContactLaw& law, ContactStatus status, const Vector3d& multiplier,
                             const Vector3d& jump) {
   ContactLawValue value = whole_law(law, status, multiplier, jump);
-  if (status != ContactStatus::open) leave_dead_to_others(law, value);
+  if (status != ContactStatus::open && !law.pointwise) leave_dead_to_others(law, value);
   return value;
 }
 
@@ -221,10 +210,6 @@ Vector3d live_part(const ContactLaw& law, Vector3d value) {
 }
 
 Matrix2d live_directions(const ContactLaw& law) { return Matrix2d::Identity() - law.dead * law.dead.transpose(); }
-
-Matrix2d weights_between_nodes(const ContactLaw& law) {
-  return live_directions(law) + dead_weight * law.dead * law.dead.transpose();
-}
 
 ContactStatus contact_status(const ContactLaw& law, bool closed, const Vector3d& multiplier, const Vector3d& jump) {
   if (!closed && !(closing_pressure(law, multiplier, jump) > 0.0)) return ContactStatus::open;

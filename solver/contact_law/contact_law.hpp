@@ -78,8 +78,16 @@ Eigen::Vector3d live_part(const ContactLaw& law, Eigen::Vector3d value);
 /// The same of two tangents, as a matrix.
 Eigen::Matrix2d live_directions(const ContactLaw& law);
 /// Between nodes what is left of the law along its dead direction counts next to nothing: other points of its nodes may
-/// know of the multiplier there, and it vanishes where none does.
-Eigen::Matrix2d weights_between_nodes(const ContactLaw& law);
+/// know of the multiplier there, and it vanishes where none does. Of a value with a residual and its derivatives.
+template <class LawValue>
+void leave_dead_to_others(const ContactLaw& law, LawValue& value) {
+  constexpr double dead_weight = 1e-8;  // less than figures are compared by
+  if (law.dead.isZero()) return;
+  const Eigen::Matrix2d weights = live_directions(law) + dead_weight * law.dead * law.dead.transpose();
+  value.residual.template tail<2>() = weights * value.residual.template tail<2>();
+  for (Eigen::Matrix3d* derivative : {&value.residual_by_multiplier, &value.residual_by_jump})
+    derivative->bottomRows<2>() = weights * derivative->bottomRows<2>();
+}
 
 /// The pressure that the law brings while it is closed.
 double trial_pressure(const ContactLaw& law, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump);

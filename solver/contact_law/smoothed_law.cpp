@@ -142,15 +142,8 @@ void SmoothedLaw::add_shear(const PositivePart& pressure, const Vector3d& multip
   else if (!law_.friction_penalised)
     result.residual_by_multiplier.bottomLeftCorner<2, 1>() = limiting.slope / law_.share_pressure * left;
   if (smoothing_.on_node) return;
-  if (!law_.dead.isZero()) leave_dead_to_others(result);
+  leave_dead_to_others(law_, result);
   let_open_shears_vanish(pressure, multiplier, result);
-}
-
-void SmoothedLaw::leave_dead_to_others(SmoothedLawValue& result) const {
-  const Matrix2d weights = weights_between_nodes(law_);
-  result.residual.tail<2>() = weights * result.residual.tail<2>();
-  for (Eigen::Matrix3d* derivative : {&result.residual_by_multiplier, &result.residual_by_jump})
-    derivative->bottomRows<2>() = weights * derivative->bottomRows<2>();
 }
 
 /// Between nodes a point may be open where the pressure of its nodes is not zero: it bears no shear all the same.

@@ -50,7 +50,6 @@ class SmoothedLaw {
   static Shear shear_of(const Eigen::Vector2d& trial, double limit, double e);
   void add_shear(const PositivePart& pressure, const Eigen::Vector3d& multiplier, const Eigen::Vector3d& jump,
                  SmoothedLawValue& result) const;
-  void leave_dead_to_others(SmoothedLawValue& result) const;
   void let_open_shears_vanish(const PositivePart& pressure, const Eigen::Vector3d& multiplier,
                               SmoothedLawValue& result) const;
 
