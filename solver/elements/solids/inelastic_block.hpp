@@ -37,7 +37,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
 
   bool is_linear() const override { return law_.is_linear(); }
   bool is_elastically_linear() const override { return !law_.is_large(); }
-  bool is_initially_linear() const override { return true; }
+  bool is_initially_linear() const override { return law_.is_large() || is_elastically_linear(); }
   bool has_memory() const override { return true; }
 
   void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,

@@ -192,12 +192,7 @@ class StabilisedInelastic final : public Stabilised<InelasticBlock<3, 8, false>>
     InelasticBlock::add_starting_forces(u, state, forces);
     add_pattern_forces(u, state, forces);
   }
-  void add_initial_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
-                             double* values) const override {
-    add_elastic_stiffness(u, state, column_starts, values);
-  }
   bool is_elastically_linear() const override { return false; }
-  bool is_initially_linear() const override { return false; }
   void accept(const Eigen::VectorXd& u, const VariableState& state) override {
     for (int element = 0; element < map_.element_count(); ++element)
       start(element, u, state, pattern_stresses(element, u, state));
