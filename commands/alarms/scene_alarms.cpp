@@ -37,20 +37,6 @@ void warn_of_locking(const interpreter::Call& call, const solver::StaticProblem&
                             "or with fewer points (D_PLAN_SI, AXIS_SI, 3D_SI), and compare two meshes");
 }
 
-void warn_of_repeated_loads(const interpreter::Call& call, Context& context) {
-  if (!call.has("EXCIT")) return;
-  std::set<const interpreter::Concept*> seen;
-  for (const interpreter::Keywords& excitation : call.factors("EXCIT")) {
-    const interpreter::ConceptPtr& load = excitation.concept_of("CHARGE");
-    if (seen.insert(load.get()).second) continue;
-    context.diagnostics.alarm(
-        "repeated-load",
-        fmt::format("{}: EXCIT names the load {} more than once: it counts as often", call.command, load->name),
-        excitation.span_of("CHARGE"),
-        "name it once; where two functions of time shall act on it, add them up (CALC_FONCTION, COMB)");
-  }
-}
-
 bool has_mass(const solver::Model& model, int cell) {
   const solver::Formulation formulation = model.formulations[static_cast<std::size_t>(cell)];
   return !model.is_skin(cell) && (solver::continuum_dimension(formulation) > 0 || solver::is_bar(formulation) ||
@@ -202,7 +188,6 @@ void warn_of_other_models(const interpreter::Call& call, const solver::Model& mo
 void warn_of_scene(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
   warn_of_locking(call, problem, context);
   warn_of_missing_data(call, problem, context);
-  warn_of_repeated_loads(call, context);
   warn_of_other_models(call, *problem.model, context);
 }
 

@@ -11,8 +11,8 @@
 namespace comma::commands {
 
 /// Alarms `near-incompressible` (cells that lock), `no-density` (weight or rotation of a material without one),
-/// `no-expansion` (nothing depends on a temperature or drying that is given), `repeated-load` (a load that EXCIT names
-/// more than once), `other-model` (a load, contact or properties that were made on a model of other elements).
+/// `no-expansion` (nothing depends on a temperature or drying that is given), `other-model` (a load, contact or
+/// properties that were made on a model of other elements).
 void warn_of_scene(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context);
 
 /// Of POST_ELEM: alarm `no-density` where cells whose masses are asked for have a material without one.

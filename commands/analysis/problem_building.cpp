@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -129,6 +130,17 @@ void take_properties(const Call& call, solver::StaticProblem& problem) {
   problem.properties = properties.properties;
 }
 
+void require_loads_once(const Keywords& keywords) {
+  std::set<const interpreter::Concept*> seen;
+  for (const Keywords& excitation : keywords.factors("EXCIT")) {
+    const interpreter::ConceptPtr& load = excitation.concept_of("CHARGE");
+    if (!seen.insert(load.get()).second)
+      throw DiagnosticError(
+          "repeated-load", "EXCIT names the load " + load->name + " more than once", excitation.span_of("CHARGE"),
+          "name it once; where two functions of time shall act on it, add them up (CALC_FONCTION, COMB)");
+  }
+}
+
 }  // namespace
 
 void take_loads(const Keywords& keywords, solver::StaticProblem& problem) {
@@ -136,6 +148,7 @@ void take_loads(const Keywords& keywords, solver::StaticProblem& problem) {
   problem.followers.clear();
   problem.turning_links.clear();
   problem.driven.clear();
+  require_loads_once(keywords);
   for (const Keywords& excitation : keywords.factors("EXCIT")) {
     solver::AppliedLoad applied;
     const auto& load_concept = excitation.data<LoadConcept>("CHARGE");

@@ -19,7 +19,8 @@ namespace comma::commands {
 /// Model, materials, properties and loads; contact is the nonlinear command's own.
 solver::StaticProblem static_problem(const interpreter::Call& call);
 
-/// The loads of EXCIT, in place of those of the problem.
+/// The loads of EXCIT, in place of those of the problem. A load that stands there twice is an error
+/// (`repeated-load`), as in Code_Aster 17.3.
 void take_loads(const interpreter::Keywords& keywords, solver::StaticProblem& problem);
 
 /// The problem that a step of a result (null: its last phase) was computed from, but for what MODELE, CHAM_MATER,
