@@ -32,8 +32,9 @@ using interpreter::Value;
 struct MeshConcept : ConceptData {
   std::shared_ptr<solver::Mesh> mesh;
 
-  /// LIST_GROUP_NO(), LIST_GROUP_MA(): tuples of a group's name, its number of members and, of cells, their largest
-  /// dimension (U1.03.02); getGroupsOfNodes(), getGroupsOfCells(): names; hasGroupOfNodes(), hasGroupOfCells();
+  /// LIST_GROUP_NO(), LIST_GROUP_MA(): tuples of a group's name and its number of members (as Code_Aster 17.3 has them;
+  /// U1.03.02 knows the largest dimension of cells besides); getGroupsOfNodes(), getGroupsOfCells(): names;
+  /// hasGroupOfNodes(), hasGroupOfCells();
   /// getNodes(), getCells(): numbers from 0, of groups or all; getNumberOfNodes(), getNumberOfCells(), getDimension();
   /// getConnectivity(): the nodes of each cell, from 0; getCoordinates(), which has getValues() and toNumpy().
   Value method(std::string_view name, const std::vector<Value>& arguments,

@@ -43,11 +43,11 @@ void tell_if_unchanged(const solver::Mesh& before, const solver::Mesh& after, co
 }
 
 // RESTREINT keeps the groups that it names, unless TOUT_GROUP_MA or TOUT_GROUP_NO keeps all.
-template <class Groups>
-void keep_named(const Keywords& restriction, const std::string& names, const std::string& all, Groups& groups) {
+void keep_named(const Keywords& restriction, const std::string& names, const std::string& all, solver::Groups& groups) {
   if (restriction.has(all) && restriction.text(all) == "OUI") return;
   const auto kept = restriction.texts(names);
-  std::erase_if(groups, [&](const auto& group) { return std::ranges::find(kept, group.first) == kept.end(); });
+  for (auto group = groups.begin(); group != groups.end();)
+    group = std::ranges::find(kept, group->first) == kept.end() ? groups.erase(group) : std::next(group);
 }
 
 solver::Mesh restrict_to(const Keywords& restriction, const solver::Mesh& mesh) {

@@ -23,7 +23,7 @@ namespace comma::commands {
 namespace {
 
 using interpreter::DiagnosticError;
-using Groups = std::map<std::string, std::vector<int>, std::less<>>;
+using solver::Groups;
 
 // The groups of one kind in a mesh, and how messages call them.
 struct Target {
@@ -40,7 +40,7 @@ void add_group(const Target& target, const std::string& name, std::vector<int> m
                                      made_by.span, fmt::format("no {} are in the place that this names", target.kind));
     return;
   }
-  if (!target.groups.emplace(name, std::move(members)).second) {
+  if (!target.groups.try_emplace(name, std::move(members)).second) {
     throw DiagnosticError("group-exists",
                           fmt::format("DEFI_GROUP: the mesh has a group {} of {} already", name, target.kind),
                           made_by.span, "choose another NOM, or drop this line");
@@ -286,12 +286,10 @@ void remove_groups(const Call& call, const std::string& kind, Groups& groups, Co
         const auto made = making.texts("NOM");
         return std::ranges::find(made, name) != made.end();
       };
-      if (groups.erase(name) > 0 || std::ranges::any_of(call.factors("CREA_" + kind), makes)) continue;
-      std::vector<std::string> known;
-      for (const auto& [other, members] : groups) known.push_back(other);
+      if (groups.erase(name) || std::ranges::any_of(call.factors("CREA_" + kind), makes)) continue;
       context.diagnostics.alarm("no-such-group",
                                 fmt::format("DEFI_GROUP/DETR_{}: the mesh has no group {} to remove", kind, name),
-                                removal.span_of("NOM"), interpreter::did_you_mean(name, known));
+                                removal.span_of("NOM"), interpreter::did_you_mean(name, solver::names_of(groups)));
     }
   }
 }

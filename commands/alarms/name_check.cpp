@@ -13,6 +13,7 @@
 #include "commands/concepts.hpp"
 #include "commands/fields/field_reading.hpp"
 #include "interpreter/item_span.hpp"
+#include "solver/mesh/groups.hpp"
 
 namespace comma::commands {
 
@@ -63,12 +64,6 @@ std::set<const Concept*> closure_of(const Reach& reach) {
     for (const ConceptPtr& behind : handle->reads_through) open.push_back(behind.get());
   }
   return closure;
-}
-
-std::vector<std::string> keys_of(const std::map<std::string, std::vector<int>, std::less<>>& groups) {
-  std::vector<std::string> names;
-  for (const auto& [name, members] : groups) names.push_back(name);
-  return names;
 }
 
 std::string hint_for(const std::string& name, const std::vector<std::string>& known, std::string_view what) {
@@ -198,7 +193,7 @@ class NameCheck {
     }
   }
 
-  using Groups = std::map<std::string, std::vector<int>, std::less<>>;
+  using Groups = solver::Groups;
 
   void check_groups(const Site& site, std::string_view kind, Groups solver::Mesh::*groups, std::string_view other_kind,
                     Groups solver::Mesh::*others) {
@@ -217,7 +212,8 @@ class NameCheck {
     const auto hint = [&](const std::string& name) {
       if (has(others, name)) return fmt::format("{} is a {} group of this mesh", name, other_kind);
       std::vector<std::string> offered(own_names_.begin(), own_names_.end());
-      for (const solver::Mesh* mesh : meshes) std::ranges::move(keys_of(mesh->*groups), std::back_inserter(offered));
+      for (const solver::Mesh* mesh : meshes)
+        std::ranges::move(solver::names_of(mesh->*groups), std::back_inserter(offered));
       return hint_for(name, offered, fmt::format("{} group", kind));
     };
     check_each(site, "unknown-group", fmt::format("the mesh has no {} group", kind), exists, hint);

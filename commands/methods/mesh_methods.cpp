@@ -16,8 +16,8 @@ namespace {
 using interpreter::HostFunction;
 using interpreter::HostObject;
 using interpreter::Object;
+using solver::Groups;
 using solver::Mesh;
-using Groups = std::map<std::string, std::vector<int>, std::less<>>;
 
 Value index_list(const std::vector<int>& values) {
   std::vector<Value> items;
@@ -31,15 +31,11 @@ Value group_names(const Groups& groups) {
   return Value::list(std::move(items));
 }
 
-/// (name, number of members) of each group, with what `further` adds.
-template <class Further>
-Value described_groups(const Groups& groups, const Further& further) {
+/// (name, number of members) of each group.
+Value described_groups(const Groups& groups) {
   std::vector<Value> items;
-  for (const auto& [name, members] : groups) {
-    std::vector<Value> facts = {Value(name), Value(static_cast<std::int64_t>(members.size()))};
-    further(members, facts);
-    items.push_back(Value::tuple(std::move(facts)));
-  }
+  for (const auto& [name, members] : groups)
+    items.push_back(Value::tuple({Value(name), Value(static_cast<std::int64_t>(members.size()))}));
   return Value::list(std::move(items));
 }
 
@@ -95,20 +91,8 @@ struct MeshMethod {
 const std::map<std::string, MeshMethod, std::less<>>& mesh_methods() {
   using Arguments = MethodArguments;
   static const std::map<std::string, MeshMethod, std::less<>> table = {
-      {"LIST_GROUP_NO",
-       {{},
-        [](const Mesh& mesh, const Arguments&) {
-          return described_groups(mesh.node_groups, [](const auto&, auto&) {});
-        }}},
-      {"LIST_GROUP_MA",
-       {{},
-        [](const Mesh& mesh, const Arguments&) {
-          return described_groups(mesh.cell_groups, [&](const std::vector<int>& cells, std::vector<Value>& facts) {
-            int largest = 0;
-            for (const int cell : cells) largest = std::max(largest, dimension(mesh.cell_types[cell]));
-            facts.emplace_back(largest);
-          });
-        }}},
+      {"LIST_GROUP_NO", {{}, [](const Mesh& mesh, const Arguments&) { return described_groups(mesh.node_groups); }}},
+      {"LIST_GROUP_MA", {{}, [](const Mesh& mesh, const Arguments&) { return described_groups(mesh.cell_groups); }}},
       {"getGroupsOfNodes", {{}, [](const Mesh& mesh, const Arguments&) { return group_names(mesh.node_groups); }}},
       {"getGroupsOfCells", {{}, [](const Mesh& mesh, const Arguments&) { return group_names(mesh.cell_groups); }}},
       {"hasGroupOfNodes",

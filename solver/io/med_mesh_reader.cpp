@@ -39,7 +39,8 @@ class Reader {
   void read_nodes(Mesh& mesh) const;
   void read_cells(Mesh& mesh, CellType type);
   std::vector<med_int> read_families(med_entity_type entity, med_geometry_type geometry, med_int entities) const;
-  std::map<med_int, std::vector<std::string>> read_family_groups() const;
+  /// The number of each family and its groups, in the order of the file.
+  std::vector<std::pair<med_int, std::vector<std::string>>> read_family_groups() const;
   void fill_groups(Mesh& mesh) const;
 
   const MedFile& file_;
@@ -145,13 +146,13 @@ std::vector<med_int> Reader::read_families(med_entity_type entity, med_geometry_
   return families;
 }
 
-std::map<med_int, std::vector<std::string>> Reader::read_family_groups() const {
+std::vector<std::pair<med_int, std::vector<std::string>>> Reader::read_family_groups() const {
   med_int major = 0;
   med_int minor = 0;
   med_int release = 0;
   MEDfileNumVersionRd(file_.id(), &major, &minor, &release);
   const char* mesh = header_.name.c_str();
-  std::map<med_int, std::vector<std::string>> result;
+  std::vector<std::pair<med_int, std::vector<std::string>>> result;
   const med_int families = MEDnFamily(file_.id(), mesh);
   for (med_int i = 1; i <= families; ++i) {
     const med_int groups = MEDnFamilyGroup(file_.id(), mesh, i);
@@ -167,17 +168,23 @@ std::map<med_int, std::vector<std::string>> Reader::read_family_groups() const {
                                                        values.data(), descriptions.data(), &number, names.data())
                                      : MEDfamilyInfo(file_.id(), mesh, i, name.data(), &number, names.data());
     if (failed < 0) damaged(fmt::format("family {} cannot be read", i));
+    auto& own = result.emplace_back(number, std::vector<std::string>()).second;
     for (med_int group = 0; group < groups; ++group) {
-      result[number].push_back(
-          trimmed({names.data() + static_cast<std::size_t>(group) * MED_LNAME_SIZE, MED_LNAME_SIZE}));
+      own.push_back(trimmed({names.data() + static_cast<std::size_t>(group) * MED_LNAME_SIZE, MED_LNAME_SIZE}));
     }
   }
   return result;
 }
 
 void Reader::fill_groups(Mesh& mesh) const {
-  const auto groups_of = read_family_groups();
-  const auto fill = [&](const std::vector<med_int>& families, auto& groups) {
+  const auto in_file = read_family_groups();
+  std::map<med_int, std::vector<std::string>> groups_of;
+  for (const auto& [number, names] : in_file) std::ranges::copy(names, std::back_inserter(groups_of[number]));
+  const auto fill = [&](const std::vector<med_int>& families, Groups& groups) {
+    const std::set<med_int> used(families.begin(), families.end());
+    for (const auto& [number, names] : in_file)
+      if (used.contains(number))
+        for (const std::string& name : names) groups.try_emplace(name);
     for (std::size_t i = 0; i < families.size(); ++i) {
       const auto found = groups_of.find(families[i]);
       if (found == groups_of.end()) continue;

@@ -17,7 +17,6 @@ namespace comma::solver {
 namespace {
 
 using enum CellType;
-using Groups = std::map<std::string, std::vector<int>, std::less<>>;
 
 CellType quadratic(CellType type) {
   switch (type) {

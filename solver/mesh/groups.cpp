@@ -58,6 +58,12 @@ bool plays(CellType type, int local, NodeRole role) {
 
 }  // namespace
 
+std::vector<std::string> names_of(const Groups& groups) {
+  std::vector<std::string> names;
+  for (const auto& [name, members] : groups) names.push_back(name);
+  return names;
+}
+
 std::vector<int> union_of(std::span<const std::vector<int>> groups) {
   std::vector<int> result;
   std::unordered_set<int> seen;

@@ -11,6 +11,9 @@
 
 namespace comma::solver {
 
+/// Their names, in the order of the groups.
+std::vector<std::string> names_of(const Groups& groups);
+
 /// All members, in the order in which they first occur.
 std::vector<int> union_of(std::span<const std::vector<int>> groups);
 /// The members of the first group that are in all others, in the first's order; empty without groups.

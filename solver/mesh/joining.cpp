@@ -49,8 +49,6 @@ void append_cells(Mesh& target, const Mesh& source, std::span<const int> left_ou
   }
 }
 
-using Groups = std::map<std::string, std::vector<int>, std::less<>>;
-
 std::string free_name(const Groups& groups, const std::string& name) {
   if (!groups.contains(name)) return name;
   int number = 2;
@@ -71,7 +69,7 @@ void append_groups(Groups& target, const Groups& source, const std::vector<int>&
     if (kept.empty()) continue;
     const std::string own = free_name(target, name);
     if (own != name) renamed.emplace_back(name, own);
-    target.emplace(own, std::move(kept));
+    target.try_emplace(own, std::move(kept));
   }
 }
 

@@ -8,12 +8,11 @@
 #include <system_error>
 
 #include "solver/error.hpp"
+#include "solver/mesh/groups.hpp"
 #include "solver/mesh/nearest_name.hpp"
 
 namespace comma::solver {
 namespace {
-
-using Groups = std::map<std::string, std::vector<int>, std::less<>>;
 
 /// The index behind a default name such as "M12", or "12"; -1 for anything else.
 int default_index(char prefix, std::string_view name, int count) {
@@ -41,8 +40,7 @@ int find_name(const std::vector<std::string>& names, char prefix, std::string_vi
   if (others.contains(name)) {
     throw Error("unknown-group", message, fmt::format("{} is a {} group of this mesh", name, other_kind));
   }
-  std::vector<std::string> known;
-  for (const auto& [group, members] : groups) known.push_back(group);
+  const std::vector<std::string> known = names_of(groups);
   const std::string nearest = nearest_name(name, known);
   if (!nearest.empty()) throw Error("unknown-group", message, fmt::format("did you mean {}?", nearest));
   if (known.empty()) throw Error("unknown-group", message, fmt::format("it has no {} group at all", kind));

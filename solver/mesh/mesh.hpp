@@ -2,13 +2,13 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "solver/mesh/cell_type.hpp"
+#include "solver/mesh/named_groups.hpp"
 
 namespace comma::solver {
 
@@ -25,8 +25,8 @@ struct Mesh {
   std::vector<int> connectivity;
   std::vector<std::string> node_names;  ///< empty when nodes have no names of their own; then node i is called "N<i+1>"
   std::vector<std::string> cell_names;  ///< the same with "M<i+1>"
-  std::map<std::string, std::vector<int>, std::less<>> node_groups;
-  std::map<std::string, std::vector<int>, std::less<>> cell_groups;
+  Groups node_groups;
+  Groups cell_groups;
   std::vector<std::vector<int>> slave_patches;  ///< face cells of each patch of a contact surface; see slave_cut.hpp
 
   int node_count() const { return static_cast<int>(nodes.size()); }
