@@ -176,8 +176,6 @@ FieldPtr from_pieces(const Call& call, const FieldType& type, interpreter::Diagn
   product->field = empty_field(call, *product, type, std::move(components));
   std::vector<std::vector<int>> where;
   for (const Keywords& occurrence : call.factors("ASSE")) where.push_back(places(occurrence, *product, type));
-  if (auto* element = std::get_if<solver::ElementField>(&product->field); element != nullptr && product->model)
-    solver::take_room(*element, *product->model, pieces, where);
   for (std::size_t i = 0; i < pieces.size(); ++i) solver::put_piece(product->field, pieces[i], &where[i]);
   return product;
 }

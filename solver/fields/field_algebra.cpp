@@ -84,33 +84,6 @@ std::optional<int> cell_of_other_values(const ElementField& field, const Element
   return std::nullopt;
 }
 
-namespace {
-
-/// Whether a model alone does not say at how many points the element of a cell has forces.
-bool has_open_room(const Model& model, int cell, Support support) {
-  return support == Support::gauss_point && is_discrete(model.formulations[static_cast<std::size_t>(cell)]);
-}
-
-}  // namespace
-
-void take_room(ElementField& target, const Model& model, std::span<const FieldPiece> pieces,
-               std::span<const std::vector<int>> places) {
-  std::vector<int> counts(target.starts.size() - 1);
-  for (std::size_t cell = 0; cell < counts.size(); ++cell) counts[cell] = target.points(static_cast<int>(cell));
-  std::vector<bool> is_taken(counts.size(), false);
-  for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const auto* piece = std::get_if<ElementField>(pieces[i].field);
-    if (piece == nullptr || piece->starts.size() != target.starts.size()) continue;
-    for (const int cell : places[i]) {
-      if (is_taken[cell] || piece->points(cell) == 0 || !has_open_room(model, cell, target.support)) continue;
-      counts[cell] = piece->points(cell);
-      is_taken[cell] = true;
-    }
-  }
-  std::inclusive_scan(counts.begin(), counts.end(), target.starts.begin() + 1);
-  target.values.assign(static_cast<std::size_t>(target.starts.back()) * target.components.size(), absent);
-}
-
 void put_piece(Field& target, const FieldPiece& piece, const std::vector<int>* places) {
   check_places(target, *piece.field);
   const FieldRows to_rows(target), from_rows(*piece.field);

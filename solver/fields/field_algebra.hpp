@@ -53,11 +53,6 @@ struct FieldPiece {
   double factor = 1.0;
   bool adds = false;  ///< to what is there, which counts as 0 where absent; else replaces it
 };
-/// The room of an empty field where the model alone does not say how many points an element has: segments of discrete
-/// elements have forces at one end or at both, as their stiffness is. Such cells get the room that the first of the
-/// pieces has that are put there (`places`: one list of cells a piece).
-void take_room(ElementField& target, const Model& model, std::span<const FieldPiece> pieces,
-               std::span<const std::vector<int>> places);
 
 /// Puts a piece into a field at the places (all without `places`). Places that the piece does not carry keep what they
 /// have; what is no number becomes infinite (made_number). Throws Error `incompatible-field` (another kind of place,

@@ -52,6 +52,7 @@ int point_count(const Model& model, int cell, Support support, bool skin) {
     return static_cast<int>(quadrature(type, stiffness_family(type, formulation)).size());
   }
   if (is_plate(formulation)) return static_cast<int>(quadrature(type, plate_family(type)).size());
+  if (is_discrete(formulation)) return node_count(type);  // of springs at both ends
   return is_beam(formulation) ? beam_point_count : 1;
 }
 

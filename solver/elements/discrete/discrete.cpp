@@ -18,7 +18,6 @@ class DiscreteBlock final : public DiscreteElements {
       const DiscreteStiffness& stiffness = discrete_stiffness(input, cell);
       stiffnesses_.push_back(&stiffness);
       symmetric_ = symmetric_ && stiffness.matrix == stiffness.matrix.transpose();
-      if (node_count_ == 2 && !pulls_alike(stiffness.matrix)) ends_ = {0, 1};
     }
   }
 
@@ -52,33 +51,29 @@ class DiscreteBlock final : public DiscreteElements {
   }
 
   bool takes_initial_stresses() const override { return true; }
-  /// Forces at one end or both: see stresses().
+  /// Forces at the ends: see stresses().
   void add_forces_of_stresses(const Eigen::VectorXd&, const VariableState&, std::span<const double> stresses,
                               ForceSum forces) const override {
     const int k = map_.components();
-    const bool pulls_back = static_cast<int>(ends_.size()) < node_count_;
     std::array<int, max_size> dofs;
     const double* own = stresses.data();
     for (int element = 0; element < map_.element_count(); ++element) {
       map_.dofs(element, dofs.data());
       const Eigen::Matrix3d back = stiffnesses_[element]->axes.transpose();
-      for (const int end : ends_) {
+      for (int end = 0; end < node_count_; ++end) {
         const double sign = end == node_count_ - 1 ? 1.0 : -1.0;
         std::array<double, component_count> force{};
         turn(own, back, force.data());
         for (int i = 0; i < k; ++i) {
           forces[dofs[end * k + i]] += sign * force[i];
-          if (pulls_back) forces[dofs[i]] -= force[i];
         }
         own += k;
       }
     }
   }
 
-  int point_count() const override { return static_cast<int>(ends_.size()); }
-
-  /// The force of the part beyond the last node upon the element, in the element's own axes: N > 0 in tension. Where
-  /// those at both ends are not alike (a full matrix, such as that of a beam), at each end, as of a beam.
+  /// At each end the force of the part beyond upon the part before, in the element's own axes: N > 0 in tension. Ends
+  /// differ where the matrix is full, such as that of a beam.
   void stresses(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
     const int k = map_.components();
     std::array<int, max_size> dofs;
@@ -86,7 +81,7 @@ class DiscreteBlock final : public DiscreteElements {
     for (int element = 0; element < map_.element_count(); ++element) {
       map_.dofs(element, dofs.data());
       const DiscreteStiffness& stiffness = *stiffnesses_[element];
-      for (const int end : ends_) {
+      for (int end = 0; end < node_count_; ++end) {
         const double sign = end == node_count_ - 1 ? 1.0 : -1.0;
         std::array<double, component_count> force{};
         for (int i = 0; i < k; ++i) {
@@ -119,12 +114,6 @@ class DiscreteBlock final : public DiscreteElements {
   static constexpr int max_size = 2 * component_count;
   using ElementMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, max_size, max_size>;
 
-  /// Whether what pulls at one end pulls back at the other, whatever the displacements.
-  bool pulls_alike(const Eigen::MatrixXd& k) const {
-    const Eigen::Index half = k.rows() / 2;
-    return is_rounding(k.topRows(half) + k.bottomRows(half), k);
-  }
-
   /// The components at a node in other axes, the rows of `axes`.
   void turn(const double* from, const Eigen::Matrix3d& axes, double* to) const {
     turn(from, axes, translations_, to);
@@ -139,7 +128,6 @@ class DiscreteBlock final : public DiscreteElements {
   }
 
   std::vector<const DiscreteStiffness*> stiffnesses_;
-  std::vector<int> ends_ = {node_count_ - 1};  ///< at which forces are reported
   bool symmetric_ = true;
 };
 

@@ -80,7 +80,7 @@ class DiscreteContact final : public DiscreteElements {
                               ForceSum forces) const override {
     const int k = map_.components();
     for (int element = 0; element < map_.element_count(); ++element) {
-      const Eigen::Map<const ElementVector> own(reported.data() + element * k, k);
+      const Eigen::Map<const ElementVector> own(reported.data() + begin_of(element, k), k);
       ElementVector rotations = ElementVector::Zero(node_count_ * k);
       rotations.segment((node_count_ - 1) * k + translations_, k - translations_) =
           rotation_axes(element).transpose() * own.tail(k - translations_);
@@ -89,13 +89,14 @@ class DiscreteContact final : public DiscreteElements {
     }
   }
 
-  /// At the last node, in the element's own axes: N < 0 where the element is closed.
+  /// At the last node, and as much at the first, in the element's own axes: N < 0 where the element is closed.
   void stresses(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
     const int k = map_.components();
     for (int element = 0; element < map_.element_count(); ++element) {
-      Eigen::Map<ElementVector> own(out.data() + element * k, k);
+      Eigen::Map<ElementVector> own(out.data() + begin_of(element, k), k);
       own.head(translations_) = answer(element, u).force.head(translations_);
       own.tail(k - translations_) = rotation_axes(element) * rotation_forces(element, u).tail(k - translations_);
+      repeat_at_second_end(own.data(), k);
     }
   }
 
@@ -106,7 +107,7 @@ class DiscreteContact final : public DiscreteElements {
   int variable_count() const override { return variables_of_contact; }
   void variables(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
-      const auto own = out.subspan(static_cast<std::size_t>(element * variables_of_contact), variables_of_contact);
+      const auto own = out.subspan(begin_of(element, variables_of_contact), variables_of_contact);
       const Eigen::Vector2d friction = answer(element, u).force.tail<2>() - force_across(element, u);
       const Eigen::Vector2d slid = slid_by(element, u);
       std::ranges::fill(own, 0.0);
@@ -114,6 +115,7 @@ class DiscreteContact final : public DiscreteElements {
       std::ranges::copy(slid, own.begin() + slid_variable);
       own[segment_variable] = node_count_ == 2 ? 1.0 : 0.0;
       own[segment_variable + 1] = 1.0;
+      repeat_at_second_end(own.data(), variables_of_contact);
     }
   }
 
@@ -140,12 +142,12 @@ class DiscreteContact final : public DiscreteElements {
       past = {displacement(element, u).tail<2>(), Eigen::Vector2d::Zero(), gap(element, u)};
       Eigen::Vector2d friction = Eigen::Vector2d::Zero();
       if (!variables.empty()) {
-        const double* own = variables.data() + element * variables_of_contact;
+        const double* own = variables.data() + begin_of(element, variables_of_contact);
         friction = Eigen::Map<const Eigen::Vector2d>(own);
         past.slid = Eigen::Map<const Eigen::Vector2d>(own + slid_variable);
       } else if (!reported.empty()) {
         for (int c = 1; c < translations_; ++c)
-          friction[c - 1] = reported[static_cast<std::size_t>(element * map_.components() + c)];
+          friction[c - 1] = reported[begin_of(element, map_.components()) + static_cast<std::size_t>(c)];
         friction -= force_across(element, u);
       }
       const double stiffness = at(element).spring->tangential;

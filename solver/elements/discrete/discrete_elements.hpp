@@ -17,7 +17,8 @@ namespace comma::solver {
 class DiscreteElements : public ElementBlock {
  public:
   std::span<const int> cells() const override { return cells_; }
-  int point_count() const override { return 1; }
+  /// Segments have a point at each end.
+  int point_count() const override { return node_count_; }
   std::span<const std::string_view> stress_names() const override { return discrete_force_names(formulation_); }
   void add_geometric_stiffness(std::span<const double>, const VariableState&, std::span<const int>,
                                double*) const override {}
@@ -31,6 +32,13 @@ class DiscreteElements : public ElementBlock {
         cells_(std::move(cells)),
         map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), node_count_,
              gather_nodes(mesh_, cells_)) {}
+
+  /// Where the values of an element begin in a field, `count` of them a point.
+  std::size_t begin_of(int element, int count) const { return static_cast<std::size_t>(element * node_count_ * count); }
+  /// The second end, if there is one, is as the first.
+  void repeat_at_second_end(double* first, int count) const {
+    if (node_count_ == 2) std::copy_n(first, count, first + count);
+  }
 
   bool is_turn(Eigen::Index unknown) const { return unknown % map_.components() >= translations_; }
 

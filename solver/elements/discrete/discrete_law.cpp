@@ -45,13 +45,16 @@ class DiscreteLaw final : public DiscreteElements {
                               ForceSum forces) const override {
     const int k = map_.components();
     for (int element = 0; element < map_.element_count(); ++element)
-      add(element, Eigen::Map<const Components>(reported.data() + element * k, k), forces);
+      add(element, Eigen::Map<const Components>(reported.data() + begin_of(element, k), k), forces);
   }
 
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     const int k = map_.components();
-    for (int element = 0; element < map_.element_count(); ++element)
-      Eigen::Map<Components>(out.data() + element * k, k) = answer(element, u, state).force;
+    for (int element = 0; element < map_.element_count(); ++element) {
+      double* own = out.data() + begin_of(element, k);
+      Eigen::Map<Components>(own, k) = answer(element, u, state).force;
+      repeat_at_second_end(own, k);
+    }
   }
 
   bool is_linear() const override { return false; }
@@ -73,7 +76,7 @@ class DiscreteLaw final : public DiscreteElements {
     std::ranges::fill(out, 0.0);
     for (int element = 0; element < map_.element_count(); ++element) {
       const Answer reached = answer(element, u, state);
-      double* own = out.data() + element * count;
+      double* own = out.data() + begin_of(element, count);
       for (int c = 0; c < map_.components(); ++c) {
         if (is_bilinear()) {
           own[axis(c)] = stage(element, c, reached);
@@ -84,6 +87,7 @@ class DiscreteLaw final : public DiscreteElements {
         own[variables_of_axis * axis(c) + 1] = now.flowed;
         own[variables_of_axis * axis(c) + 2] = now.spent;
       }
+      repeat_at_second_end(own, count);
     }
   }
 
@@ -108,7 +112,7 @@ class DiscreteLaw final : public DiscreteElements {
     for (int element = 0; element < map_.element_count(); ++element) {
       Member& own = members_[static_cast<std::size_t>(element)];
       if (!variables.empty()) {
-        const double* from = variables.data() + element * variable_count();
+        const double* from = variables.data() + begin_of(element, variable_count());
         for (int c = 0; c < k; ++c) {
           const double* of_axis = from + variables_of_axis * axis(c);
           own.past[static_cast<std::size_t>(c)] = {of_axis[0], of_axis[1], of_axis[2]};
@@ -118,7 +122,7 @@ class DiscreteLaw final : public DiscreteElements {
         for (int c = 0; c < k; ++c) {
           const HardeningSpring* law = hardening(element, c);
           if (law == nullptr) continue;
-          const double force = reported[static_cast<std::size_t>(element * k + c)];
+          const double force = reported[begin_of(element, k) + static_cast<std::size_t>(c)];
           const double beyond = std::max(0.0, std::abs(force) - law->yield);
           own.past[static_cast<std::size_t>(c)] = {moved[c] - force / own.stiffness[c],
                                                    flowed_for_centre(*law, std::copysign(beyond, force)), 0.0};

@@ -82,19 +82,13 @@ TEST_CASE("what is made of numbers and is none is infinite, not absent", "[field
   CHECK_FALSE(first_infinite(field));
 }
 
-TEST_CASE("a piece says at how many points springs have forces, and other elements have their own", "[fields]") {
+TEST_CASE("segments of springs have forces at both ends, points at one", "[fields]") {
   auto mesh = std::make_shared<Mesh>();
   mesh->nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   mesh->add_cell(CellType::seg2, std::array{0, 1});
-  mesh->add_cell(CellType::seg2, std::array{1, 2});
+  mesh->add_cell(CellType::poi1, std::array{1});
   mesh->add_cell(CellType::tria3, std::array{0, 2, 3});
   const Model model{mesh, {Formulation::spring_2d, Formulation::spring_2d, Formulation::plane_strain}};
-  ElementField room = empty_element_field(model, "SIEF_R", Support::gauss_point, {"N"}, false);
-  const Field piece = ElementField{"SIEF_R", Support::gauss_point, {"N"}, {0, 2, 4, 7}, std::vector<double>(7, 1.0)};
-  const std::vector<FieldPiece> pieces = {{&piece, {}, {}}};
-  const std::vector<std::vector<int>> places = {{0, 2}};
-  take_room(room, model, pieces, places);
+  const ElementField room = empty_element_field(model, "SIEF_R", Support::gauss_point, {"N"}, false);
   CHECK(room.starts == std::vector{0, 2, 3, 4});
-  Field target = room;
-  CHECK_THROWS_WITH(put_piece(target, pieces.front()), Catch::Contains("2 points in one field and 1 in the other"));
 }
