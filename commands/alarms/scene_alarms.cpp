@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <numeric>
 #include <set>
 #include <variant>
 #include <vector>
@@ -162,6 +163,26 @@ void warn_of_cells_without_behaviour(const interpreter::Call& call, const solver
       call.factors("COMPORTEMENT").front().span, "name all cells that carry stiffness, those with RELATION='ELAS' too");
 }
 
+// They keep their directions, where beams beside them turn.
+void warn_of_small_bars(const interpreter::Call& call, const solver::Model& model, Context& context) {
+  for (const interpreter::Keywords& keywords : call.factors("COMPORTEMENT")) {
+    if (keywords.text("DEFORMATION") != "GROT_GDEP") continue;
+    std::vector<int> cells = selected_cells(keywords, *model.mesh);
+    if (!names_a_place(keywords, cell_places)) {
+      cells.resize(model.formulations.size());
+      std::iota(cells.begin(), cells.end(), 0);
+    }
+    const auto bar = std::ranges::find_if(
+        cells, [&](int cell) { return solver::is_bar(model.formulations[static_cast<std::size_t>(cell)]); });
+    if (bar == cells.end()) continue;
+    context.diagnostics.alarm(
+        "small-bars",
+        fmt::format("{}: DEFORMATION='GROT_GDEP' leaves bars, {} the first, in small displacements, as Code_Aster does",
+                    call.command, model.mesh->cell_name(*bar)),
+        keywords.span_of("DEFORMATION"), "give bars that turn DEFORMATION='PETIT_REAC', or POU_D_T for BARRE");
+  }
+}
+
 bool has_other_elements(const solver::Model* own, const solver::Model& model) {
   return own != nullptr && own != &model && own->formulations != model.formulations;
 }
@@ -222,6 +243,7 @@ void warn_of_nonlinear_scene(const interpreter::Call& call, const solver::Static
                              const solver::BehaviourOfCells* before, Context& context) {
   warn_of_scene(call, problem, context);
   warn_of_cells_without_behaviour(call, *problem.model, context);
+  warn_of_small_bars(call, *problem.model, context);
   warn_of_start(call, problem, first_instant, before, context);
 }
 

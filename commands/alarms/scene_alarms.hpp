@@ -24,8 +24,8 @@ void warn_of_missing_masses(const interpreter::Call& call, const solver::StaticP
 void warn_of_loads_at_the_start(const interpreter::Call& call, const solver::StaticProblem& problem, double instant,
                                 Context& context);
 
-/// The same as warn_of_scene(), and of STAT_NON_LINE: `no-behaviour` (cells that COMPORTEMENT leaves out), and what
-/// warn_of_start() tells.
+/// The same as warn_of_scene(), and of STAT_NON_LINE: `no-behaviour` (cells that COMPORTEMENT leaves out), `small-bars`
+/// (bars that GROT_GDEP leaves in small displacements), and what warn_of_start() tells.
 void warn_of_nonlinear_scene(const interpreter::Call& call, const solver::StaticProblem& problem, double first_instant,
                              const solver::BehaviourOfCells* before, Context& context);
 

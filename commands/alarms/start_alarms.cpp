@@ -74,7 +74,7 @@ void warn_of_strained_start(const interpreter::Call& call, const solver::StaticP
       fmt::format(
           "{}: at the first instant, {:.6g}, command variables differ from their reference values (strain "
           "{:.3g}): elasticity without a memory takes the whole strain, "
-          "laws with a memory and large strains what changes from there{}",
+          "bars, beams, laws with a memory and large strains what changes from there{}",
           call.command, instant, strain,
           has_whole_volumes ? ", but for the volume of INCO_UP cells, which has the whole whatever the law" : ""),
       call.span, "begin at an instant where the variables have their reference values (VALE_REF)");

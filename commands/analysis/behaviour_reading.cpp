@@ -48,12 +48,16 @@ solver::CellBehaviour behaviour_of(const Keywords& keywords) {
   return behaviour;
 }
 
-// In continua GROT_GDEP is Green and Lagrange's measure (U4.51.11), the older word for it.
+// In continua GROT_GDEP is Green and Lagrange's measure (U4.51.11), the older word for it; bars stay in small
+// displacements with it (Code_Aster 17.3; the alarm `small-bars` tells).
 solver::CellBehaviour behaviour_on(solver::CellBehaviour behaviour, const solver::Model& model, int cell,
                                    const solver::InitialState* initial) {
   const bool is_solid = solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) > 0;
   if (is_solid && behaviour.kinematics == solver::Kinematics::large_rotations)
     behaviour.kinematics = solver::Kinematics::green_lagrange;
+  if (behaviour.kinematics == solver::Kinematics::large_rotations &&
+      solver::is_bar(model.formulations[static_cast<std::size_t>(cell)]))
+    behaviour.kinematics = solver::Kinematics::small;
   const bool has_whole_strain =
       is_solid && behaviour.relation == solver::Relation::elastic && behaviour.kinematics == solver::Kinematics::small;
   behaviour.from_initial_state = initial != nullptr && (initial->stresses || !has_whole_strain);

@@ -65,20 +65,21 @@ std::unique_ptr<ElementBlock> make_block(const BlockInput& input, std::vector<in
   if (relation == Relation::contact_spring && is_discrete) return make_discrete_contact_block(input, std::move(cells));
   if (is_of_springs(relation)) return make_discrete_law_block(input, std::move(cells));
   const bool flows = relation != Relation::elastic;
-  if ((flows || input.behaviour_of(cells.front()).from_initial_state) && is_bar(formulation))
-    return make_inelastic_bar_block(input, std::move(cells));
+  const Kinematics kinematics = input.behaviour_of(cells.front()).kinematics;
+  const bool adds_up =
+      flows || input.behaviour_of(cells.front()).from_initial_state || kinematics == Kinematics::updated;
+  if (adds_up && is_bar(formulation)) return make_inelastic_bar_block(input, std::move(cells));
   if (flows)
     throw Error(
         "unsupported",
         fmt::format("cell {}: springs, beams and plates are elastic", input.model.mesh->cell_name(cells.front())),
         "give these cells RELATION='ELAS'");
   if (is_discrete) return make_discrete_block(input, std::move(cells));
-  const Kinematics kinematics = input.behaviour_of(cells.front()).kinematics;
   if (is_rotating_beam(formulation, kinematics)) return make_rotating_beam_block(input, std::move(cells));
   if (kinematics != Kinematics::small)
     throw Error("unsupported",
-                fmt::format("cell {}: bars and plates know small displacements only, and beams besides large rotations "
-                            "(DEFORMATION='GROT_GDEP')",
+                fmt::format("cell {}: plates know small displacements only, bars besides those that add up on the "
+                            "geometry of the moment (DEFORMATION='PETIT_REAC'), beams large rotations ('GROT_GDEP')",
                             input.model.mesh->cell_name(cells.front())),
                 "give these cells small strains (DEFORMATION='PETIT')");
   if (is_plate(formulation)) return make_plate_block(input, std::move(cells));
@@ -105,7 +106,9 @@ void Assembler::set_time(double time) {
   state_ = VariableState(*model_.mesh, materials_.variables, time);
   const bool constant =
       std::all_of(blocks_->list.begin(), blocks_->list.end(), [](const auto& block) { return block->is_constant(); });
-  if (!constant) ++version_;
+  if (constant) return;
+  ++version_;
+  sum_initial_forces();
 }
 
 void Assembler::impose_strains(std::span<const AppliedLoad> loads, double time) {

@@ -113,8 +113,9 @@ class Assembler {
   /// plates: what they have besides stays, in internal_forces() and stresses(). Plates must have such stresses through
   /// their thickness as forces make. What holds rotations about the normal of plates is in no stress: it is that of u.
   void resume(const Eigen::VectorXd& u, const ElementField* stresses, const ElementField* variables);
-  /// After resume() without stresses: discrete elements and beams whose forces follow from displacements begin with
-  /// none at u, and go on by what displacements add (Code_Aster 17.3; continua and plates keep the stresses of u).
+  /// After resume() without stresses: discrete elements, bars and beams whose forces follow from displacements begin
+  /// with none at u and the command variables of the instant, and go on by what both add (Code_Aster 17.3; continua and
+  /// plates keep the stresses of u).
   void begin_without_forces(const Eigen::VectorXd& u);
   /// VARI_ELGA: internal variables V1, V2 ... at the Gauss points (U4.51.11); cells with fewer have none in the other
   /// components.
@@ -187,7 +188,8 @@ class Assembler {
   void add_initial_stress_forces(std::span<const AppliedLoad> loads, double time, std::span<long double> sums) const;
   void take_initial_stresses(const ElementBlock& block, const Eigen::VectorXd& u, const ElementField& given);
   ElementField field_at_points(std::string quantity, std::vector<std::string> components) const;
-  void sum_initial_forces(const Eigen::VectorXd& u);
+  void add_initial_stresses(const ElementBlock& block, std::vector<double> values);
+  void sum_initial_forces();
 
   struct Blocks;
   const Model& model_;
@@ -197,8 +199,14 @@ class Assembler {
   std::unique_ptr<Blocks> blocks_;
   VariableState state_;
   std::unique_ptr<const ImposedStrains> imposed_;  ///< null: none
-  /// That elements without a memory have beside those of their displacements; forces of plates.
-  std::vector<std::pair<const ElementBlock*, std::vector<double>>> initial_stresses_;
+  /// What elements without a memory have beside the stresses of their displacements; of plates forces.
+  struct InitialStresses {
+    const ElementBlock* block;
+    std::vector<double> values;
+    std::vector<double> moduli;  ///< Young's, of each element, that go with them; empty where they do not count
+    std::vector<double> now(const VariableState& state) const;
+  };
+  std::vector<InitialStresses> initial_stresses_;
   Eigen::VectorXd initial_forces_;  ///< of these; empty: none
   int version_ = 0;
 };

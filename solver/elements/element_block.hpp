@@ -81,6 +81,10 @@ class ElementBlock {
   /// Whether an element without a memory may start from stresses that are not those of its displacements, and has them
   /// beside these from there on: add_forces_of_stresses() then takes the stresses for what they are.
   virtual bool takes_initial_stresses() const { return false; }
+  /// Whether these grow with Young's modulus from there on, as forces do whose strain stays; and that modulus of each
+  /// element.
+  virtual bool scales_initial_stresses() const { return false; }
+  virtual void write_moduli(const VariableState&, std::span<double>) const {}
   /// Whether add_stiffness() is the whole tangent; the same in all states.
   virtual bool is_symmetric() const { return true; }
   /// The same of add_elastic_stiffness().

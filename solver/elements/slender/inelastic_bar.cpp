@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/slender/slender_member.hpp"
 #include "solver/elements/translation.hpp"
 #include "solver/error.hpp"
 #include "solver/materials/behaviour/von_mises.hpp"
@@ -111,49 +112,63 @@ class InelasticBar final : public ElementBlock {
         behaviour_(input.behaviour_of(cells.front())),
         cells_(std::move(cells)),
         map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), 2, gather_nodes(mesh_, cells_)),
-        past_(cells_.size()) {
+        past_(cells_.size()),
+        past_stretch_(cells_.size(), Direction::Zero()) {
     for (const int cell : cells_) members_.push_back(member(input, cell));
   }
 
   void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                      double* values) const override {
-    for (int element = 0; element < map_.element_count(); ++element)
-      map_.add(element, matrix(element, respond(element, u, state).tangent).data(), column_starts, values);
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const BarResponse response = respond(element, u, state);
+      const double stress = is_updated() ? response.state.stress : 0.0;
+      map_.add(element, matrix(element, place(element, u), response.tangent, stress).data(), column_starts, values);
+    }
   }
-  void add_elastic_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts,
+  void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                              double* values) const override {
-    for (int element = 0; element < map_.element_count(); ++element)
-      map_.add(element, matrix(element, young_of(material(element, state).plastic)).data(), column_starts, values);
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const double young = young_of(material(element, state).plastic);
+      map_.add(element, matrix(element, place(element, u), young, 0.0).data(), column_starts, values);
+    }
+  }
+  void add_initial_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts,
+                             double* values) const override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const double young = young_of(material(element, state).plastic);
+      map_.add(element, matrix(element, first_place(element), young, 0.0).data(), column_starts, values);
+    }
   }
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
     for (int element = 0; element < map_.element_count(); ++element)
-      add_force(element, members_[static_cast<std::size_t>(element)].area * respond(element, u, state).state.stress,
-                forces);
+      add_force(element, place(element, u).along,
+                members_[static_cast<std::size_t>(element)].area * respond(element, u, state).state.stress, forces);
   }
-  void add_variable_forces(const Eigen::VectorXd&, const VariableState& state, ForceSum forces) const override {
+  void add_variable_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const BarMaterial now = material(element, state);
-      add_force(element, members_[static_cast<std::size_t>(element)].area * young_of(now.plastic) * now.expansion,
-                forces);
+      add_force(element, place(element, u).along,
+                members_[static_cast<std::size_t>(element)].area * young_of(now.plastic) * now.expansion, forces);
     }
   }
-  void add_forces_of_stresses(const Eigen::VectorXd&, const VariableState&, std::span<const double> reported,
+  void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported,
                               ForceSum forces) const override {
     for (int element = 0; element < map_.element_count(); ++element)
-      add_force(element, reported[static_cast<std::size_t>(element)], forces);
+      add_force(element, place(element, u).along, reported[static_cast<std::size_t>(element)], forces);
   }
   void add_initial_stress_forces(std::span<const double> stresses, ForceSum forces) const override {
     for (int element = 0; element < map_.element_count(); ++element)
       if (const double force = stresses[static_cast<std::size_t>(element)]; !std::isnan(force))
-        add_force(element, force, forces);
+        add_force(element, first_place(element).along, force, forces);
   }
 
   std::span<const int> cells() const override { return cells_; }
   int point_count() const override { return 1; }
   std::span<const std::string_view> stress_names() const override { return axial_force; }
   bool is_linear() const override { return false; }
-  bool is_elastically_linear() const override { return true; }
+  bool is_elastically_linear() const override { return !is_updated(); }
+  bool is_initially_linear() const override { return true; }
   bool is_constant() const override {
     return std::ranges::all_of(members_, [](const Member& each) { return each.constant; });
   }
@@ -205,8 +220,10 @@ class InelasticBar final : public ElementBlock {
   }
 
   void accept(const Eigen::VectorXd& u, const VariableState& state) override {
-    for (int element = 0; element < map_.element_count(); ++element)
+    for (int element = 0; element < map_.element_count(); ++element) {
       past_[static_cast<std::size_t>(element)] = respond(element, u, state).state;
+      past_stretch_[static_cast<std::size_t>(element)] = stretch(element, u);
+    }
   }
 
   void resume(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported,
@@ -216,7 +233,8 @@ class InelasticBar final : public ElementBlock {
       const BarMaterial now = material(element, state);
       BarState& past = past_[index];
       past = BarState{};
-      past.strain = strain(element, u);
+      past.strain = is_updated() ? 0.0 : place(element, u).strain;
+      past_stretch_[index] = stretch(element, u);
       past.expansion = now.expansion;
       past.moduli = now.plastic;
       if (!reported.empty()) past.stress = reported[index] / members_[index].area;
@@ -281,15 +299,12 @@ class InelasticBar final : public ElementBlock {
     const auto index = static_cast<std::size_t>(element);
     const Member& own = members_[index];
     try {
-      constexpr std::array<double, 2> middle = {0.5, 0.5};
+      const MaterialPoint at = middle_of(mesh_, cells_[index], state);
       const auto nodes = map_.nodes(element);
-      MaterialPoint at;
-      state.sample(cells_[index], nodes, middle, VariableState::all_points, at);
       const Point &first = mesh_.nodes[static_cast<std::size_t>(nodes[0])],
                   &second = mesh_.nodes[static_cast<std::size_t>(nodes[1])];
       const Eigen::Vector3d centre =
           0.5 * (Eigen::Map<const Eigen::Vector3d>(first.data()) + Eigen::Map<const Eigen::Vector3d>(second.data()));
-      at.place({centre[0], centre[1], centre[2]});
       const double imposed = imposed_ ? imposed_->slender(cells_[index], centre)[0] : 0.0;
       return {plastic_point(*own.elasticity, *own.plasticity, behaviour_.relation, at),
               imposed + (state.empty() ? 0.0 : inelastic_axial_strain(*own.elasticity, at))};
@@ -299,25 +314,62 @@ class InelasticBar final : public ElementBlock {
     }
   }
 
-  double strain(int element, const Eigen::VectorXd& u) const {
+  /// Where a bar is, and its strain: on the initial geometry, or (PETIT_REAC) the sum over the steps of their stretch
+  /// on the geometry where each ends (U4.51.11).
+  struct Place {
+    Direction along;
+    double length;
+    double strain;
+  };
+
+  bool is_updated() const { return behaviour_.kinematics == Kinematics::updated; }
+
+  /// What the second node has moved relative to the first.
+  Direction stretch(int element, const Eigen::VectorXd& u) const {
     std::array<int, size> dofs;
     map_.dofs(element, dofs.data());
+    Direction moved;
+    for (std::size_t c = 0; c < Dim; ++c) moved[static_cast<int>(c)] = u[dofs[Dim + c]] - u[dofs[c]];
+    return moved;
+  }
+
+  Place first_place(int element) const {
     const Member& own = members_[static_cast<std::size_t>(element)];
-    double elongation = 0.0;
-    for (int c = 0; c < Dim; ++c)
-      elongation += own.along[c] * (u[dofs[static_cast<std::size_t>(Dim + c)]] - u[dofs[static_cast<std::size_t>(c)]]);
-    return elongation / own.length;
+    return {own.along, own.length, 0.0};
+  }
+
+  Place place(int element, const Eigen::VectorXd& u) const {
+    Place now = first_place(element);
+    const Direction moved = stretch(element, u);
+    if (!is_updated()) {
+      now.strain = now.along.dot(moved) / now.length;
+      return now;
+    }
+    const auto index = static_cast<std::size_t>(element);
+    const Direction chord = now.length * now.along + moved;
+    now.length = chord.norm();
+    if (!(now.length > 0.0))
+      throw Error("integration-failure",
+                  fmt::format("the bar of cell {} has no length left", mesh_.cell_name(cells_[index])),
+                  "take shorter steps");
+    now.along = chord / now.length;
+    now.strain = past_[index].strain + now.along.dot(moved - past_stretch_[index]) / now.length;
+    return now;
   }
 
   BarResponse respond(int element, const Eigen::VectorXd& u, const VariableState& state) const {
     const BarState& past = past_[static_cast<std::size_t>(element)];
-    if (extrapolation_) return extrapolate_flow(past, material(element, state), strain(element, u), *extrapolation_);
-    return integrate(past, material(element, state), strain(element, u));
+    const double strain = place(element, u).strain;
+    if (extrapolation_) return extrapolate_flow(past, material(element, state), strain, *extrapolation_);
+    return integrate(past, material(element, state), strain);
   }
 
-  Matrix matrix(int element, double tangent) const {
-    const Member& own = members_[static_cast<std::size_t>(element)];
-    const Eigen::Matrix<double, Dim, Dim> block = tangent * own.area / own.length * (own.along * own.along.transpose());
+  /// With what the stress adds when the bar turns; how the strain of the step follows the turn is left out.
+  Matrix matrix(int element, const Place& at, double tangent, double stress) const {
+    const double area = members_[static_cast<std::size_t>(element)].area;
+    const Eigen::Matrix<double, Dim, Dim> block =
+        area / at.length *
+        ((tangent - stress) * (at.along * at.along.transpose()) + stress * Eigen::Matrix<double, Dim, Dim>::Identity());
     Matrix k;
     k << block, -block, -block, block;
     std::array<bool, Dim> invariant;
@@ -326,10 +378,9 @@ class InelasticBar final : public ElementBlock {
     return k;
   }
 
-  void add_force(int element, double force, ForceSum forces) const {
+  void add_force(int element, const Direction& along, double force, ForceSum forces) const {
     std::array<int, size> dofs;
     map_.dofs(element, dofs.data());
-    const Direction& along = members_[static_cast<std::size_t>(element)].along;
     for (int c = 0; c < Dim; ++c) {
       forces[static_cast<std::size_t>(dofs[static_cast<std::size_t>(c)])] -= force * along[c];
       forces[static_cast<std::size_t>(dofs[static_cast<std::size_t>(Dim + c)])] += force * along[c];
@@ -342,6 +393,7 @@ class InelasticBar final : public ElementBlock {
   ElementMap map_;
   std::vector<Member> members_;
   std::vector<BarState> past_;
+  std::vector<Direction> past_stretch_;  ///< of the second node relative to the first
   std::optional<double> extrapolation_;
   const ImposedStrains* imposed_ = nullptr;
 };
@@ -350,11 +402,11 @@ class InelasticBar final : public ElementBlock {
 
 std::unique_ptr<ElementBlock> make_inelastic_bar_block(const BlockInput& input, std::vector<int> cells) {
   const CellBehaviour behaviour = input.behaviour_of(cells.front());
-  if (behaviour.relation == Relation::hyperelastic || behaviour.kinematics != Kinematics::small) {
+  if (behaviour.relation == Relation::hyperelastic || !has_small_strains(behaviour.kinematics)) {
     throw Error("unsupported",
                 fmt::format("cell {}: bars flow in small strains, by von Mises' criterion",
                             input.model.mesh->cell_name(cells.front())),
-                "give these cells DEFORMATION='PETIT' and RELATION='ELAS' or 'VMIS_...'");
+                "give these cells DEFORMATION='PETIT' or 'PETIT_REAC' and RELATION='ELAS' or 'VMIS_...'");
   }
   if (input.model.formulations[static_cast<std::size_t>(cells.front())] == Formulation::bar_2d)
     return std::make_unique<InelasticBar<2>>(input, std::move(cells));

@@ -58,6 +58,8 @@ struct BeamPast {
   Vector12d displacement = Vector12d::Zero();
   Vector12d force = Vector12d::Zero();  ///< on both ends, in own axes
   double elongation = 0.0;              ///< left by the turns of all steps
+  IsotropicModuli moduli{1.0, 0.0};     ///< set when there are forces, and ...
+  double expansion = 0.0;               ///< ... the axial strain of the command variables
 };
 
 template <class Scalar>
@@ -96,14 +98,16 @@ class RotatingBeam final : public ElementBlock {
         cells_(std::move(cells)),
         map_(input.pattern, input.dofs, input.model.components_of(cells_.front()), 2, gather_nodes(mesh_, cells_)) {
     for (const int cell : cells_) members_.push_back(member(input, cell));
+    constant_ = std::ranges::all_of(members_, [](const Member& each) {
+      return each.material->young.is_constant() && each.material->poisson.is_constant();
+    });
     for (int element = 0; element < static_cast<int>(cells_.size()); ++element) past_.push_back(first_past(element));
   }
 
   void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                      double* values) const override {
-    require_no_strains(state);
     for (int element = 0; element < map_.element_count(); ++element) {
-      const BeamMatrix k = tangent(element, u);
+      const BeamMatrix k = tangent(element, u, state);
       const BeamMatrix symmetric = 0.5 * (k + k.transpose());
       map_.add(element, symmetric.data(), column_starts, values);
     }
@@ -111,15 +115,13 @@ class RotatingBeam final : public ElementBlock {
   bool is_symmetric() const override { return false; }
   void add_symmetric_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                                double* values) const override {
-    require_no_strains(state);
     for (int element = 0; element < map_.element_count(); ++element)
-      map_.add(element, plain_tangent(element, u).data(), column_starts, values);
+      map_.add(element, plain_tangent(element, u, state).data(), column_starts, values);
   }
   void add_initial_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts,
                              double* values) const override {
-    require_no_strains(state);
     for (int element = 0; element < map_.element_count(); ++element)
-      map_.add(element, initial_stiffness(element).data(), column_starts, values);
+      map_.add(element, initial_stiffness(element, state).data(), column_starts, values);
   }
   bool is_initially_symmetric() const override { return true; }
   bool is_initially_linear() const override { return true; }
@@ -127,16 +129,15 @@ class RotatingBeam final : public ElementBlock {
                               double* values) const override {
     add_symmetric_stiffness(u, state, column_starts, values);
   }
-  void add_skew_stiffness(const Eigen::VectorXd& u, const VariableState&,
+  void add_skew_stiffness(const Eigen::VectorXd& u, const VariableState& state,
                           std::vector<Eigen::Triplet<double>>& entries) const override {
     for (int element = 0; element < map_.element_count(); ++element)
-      map_.append_skew_half(element, tangent(element, u), entries);
+      map_.append_skew_half(element, tangent(element, u, state), entries);
   }
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
-    require_no_strains(state);
     for (int element = 0; element < map_.element_count(); ++element) {
-      const Trial now = trial(element, u);
+      const Trial now = trial(element, u, state);
       add(element, turned<double>(now.axes.transpose(), now.force), forces);
     }
   }
@@ -144,7 +145,8 @@ class RotatingBeam final : public ElementBlock {
                               ForceSum forces) const override {
     for (int element = 0; element < map_.element_count(); ++element)
       add(element,
-          turned<double>(trial(element, u).axes.transpose(), end_forces(reported.data() + reported_count * element)),
+          turned<double>(geometry_of(element, u).axes.transpose(),
+                         end_forces(reported.data() + reported_count * element)),
           forces);
   }
 
@@ -152,12 +154,12 @@ class RotatingBeam final : public ElementBlock {
   int point_count() const override { return beam_point_count; }
   std::span<const std::string_view> stress_names() const override { return beam_force_names; }
   bool is_linear() const override { return false; }
-  bool is_constant() const override { return true; }
+  bool is_constant() const override { return constant_; }
   bool has_memory() const override { return true; }
 
-  void stresses(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
+  void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
-      const Vector12d force = trial(element, u).force;
+      const Vector12d force = trial(element, u, state).force;
       std::array<double, 12> ends;
       for (int i = 0; i < 12; ++i) ends[static_cast<std::size_t>(i)] = i < 6 ? -force[i] : force[i];
       write_at_points(ends, out.subspan(static_cast<std::size_t>(reported_count * element), reported_count));
@@ -165,9 +167,9 @@ class RotatingBeam final : public ElementBlock {
   }
 
   int variable_count() const override { return rotating_beam_variables; }
-  void variables(const Eigen::VectorXd& u, const VariableState&, std::span<double> out) const override {
+  void variables(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
-      const Trial now = trial(element, u);
+      const Trial now = trial(element, u, state);
       for (int point = 0; point < point_count(); ++point) {
         double* own = out.data() + (point_count() * element + point) * rotating_beam_variables;
         own[0] = 0.0;
@@ -185,23 +187,24 @@ class RotatingBeam final : public ElementBlock {
     std::ranges::fill(out, absent);
   }
 
-  void accept(const Eigen::VectorXd& u, const VariableState&) override {
+  void accept(const Eigen::VectorXd& u, const VariableState& state) override {
     for (int element = 0; element < map_.element_count(); ++element) {
-      const Trial now = trial(element, u);
-      begin(element, u, roll_of(now.axes), now.force);
+      const Trial now = trial(element, u, state);
+      begin(element, u, roll_of(now.axes), now.force, state);
       past_[static_cast<std::size_t>(element)].elongation = now.elongation;
     }
   }
 
   /// Without variables the axes are those of the first geometry, carried along as if by one step.
-  void resume(const Eigen::VectorXd& u, const VariableState&, std::span<const double> reported,
+  void resume(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> reported,
               std::span<const double> variables) override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const double* own =
           variables.empty() ? nullptr : variables.data() + point_count() * rotating_beam_variables * element;
       const double roll = own == nullptr ? carried_roll(element, u) : own[roll_variable];
       begin(element, u, roll,
-            reported.empty() ? Vector12d::Zero().eval() : end_forces(reported.data() + reported_count * element));
+            reported.empty() ? Vector12d::Zero().eval() : end_forces(reported.data() + reported_count * element),
+            state);
       past_[static_cast<std::size_t>(element)].elongation = own == nullptr ? 0.0 : own[2];
     }
   }
@@ -216,7 +219,12 @@ class RotatingBeam final : public ElementBlock {
  private:
   struct Member {
     const BeamSection* section;
+    const IsotropicElasticity* material;
+  };
+  /// What a material is at an instant.
+  struct Now {
     IsotropicModuli moduli;
+    double expansion;
   };
   struct Trial {
     Eigen::Matrix3d axes;
@@ -227,21 +235,23 @@ class RotatingBeam final : public ElementBlock {
   Member member(const BlockInput& input, int cell) const {
     const BeamSection& section = slender_section(input, cell);
     const IsotropicElasticity& elasticity = isotropic_material(input, cell);
-    if (section.end || !elasticity.young.is_constant() || !elasticity.poisson.is_constant()) {
-      throw Error("unsupported",
-                  fmt::format("cell {}: beams in large rotations have a section and a material that do not vary",
-                              mesh_.cell_name(cell)),
-                  "give DEFORMATION='PETIT', or constant properties");
-    }
-    return {&section, moduli(elasticity, MaterialPoint())};
+    if (section.end)
+      throw Error(
+          "unsupported",
+          fmt::format("cell {}: beams in large rotations have a section that does not vary", mesh_.cell_name(cell)),
+          "give DEFORMATION='PETIT', or a constant section");
+    return {&section, &elasticity};
   }
 
-  void require_no_strains(const VariableState& state) const {
-    if (state.empty()) return;
-    throw Error("unsupported",
-                fmt::format("cell {}: beams in large rotations do not expand with command variables",
-                            mesh_.cell_name(cells_.front())),
-                "leave out AFFE_VARC, or give DEFORMATION='PETIT'");
+  Now material(int element, const VariableState& state) const {
+    const int cell = cells_[static_cast<std::size_t>(element)];
+    const IsotropicElasticity& elasticity = *members_[static_cast<std::size_t>(element)].material;
+    try {
+      const MaterialPoint at = middle_of(mesh_, cell, state);
+      return {moduli(elasticity, at), state.empty() ? 0.0 : inelastic_axial_strain(elasticity, at)};
+    } catch (const Error& error) {
+      throw Error(error.code(), fmt::format("{} (cell {})", error.what(), mesh_.cell_name(cell)), error.hint());
+    }
   }
 
   Eigen::Vector3d initial_chord(int cell) const {
@@ -267,13 +277,16 @@ class RotatingBeam final : public ElementBlock {
   }
 
   /// `roll`: of the axes as the forces have them.
-  void begin(int element, const Eigen::VectorXd& u, double roll, const Vector12d& force) {
+  void begin(int element, const Eigen::VectorXd& u, double roll, const Vector12d& force, const VariableState& state) {
     BeamPast& past = past_[static_cast<std::size_t>(element)];
     past.displacement = unknowns(element, u);
     past.along = initial_chord(cells_[static_cast<std::size_t>(element)]) + past.displacement.segment<3>(6) -
                  past.displacement.head<3>();
     past.roll = roll - mean_rotation(past.displacement).dot(past.along.normalized());
     past.force = force;
+    const Now now = material(element, state);
+    past.moduli = now.moduli;
+    past.expansion = now.expansion;
   }
 
   Vector12d unknowns(int element, const Eigen::VectorXd& u) const {
@@ -302,13 +315,35 @@ class RotatingBeam final : public ElementBlock {
     return motion;
   }
 
-  Trial trial(int element, const Eigen::VectorXd& u) const {
+  BeamGeometry<double> geometry_of(int element, const Eigen::VectorXd& u) const {
+    const BeamPast& past = past_[static_cast<std::size_t>(element)];
+    return geometry<double>(past, motion_of(past, increment(element, u)));
+  }
+
+  /// Of the step's beginning: they follow Young's modulus, and the expansion since then presses on both ends.
+  Vector12d held_force(int element, const Now& material) const {
+    const BeamPast& past = past_[static_cast<std::size_t>(element)];
+    if (!past.force.isZero(0.0) && material.moduli.poisson != past.moduli.poisson)
+      throw Error("unsupported",
+                  fmt::format("cell {}: Poisson's ratio of beams in large rotations does not change with time",
+                              mesh_.cell_name(cells_[static_cast<std::size_t>(element)])),
+                  "give DEFORMATION='PETIT', or a constant NU");
+    Vector12d force = past.force * (material.moduli.young / past.moduli.young);
+    const double pressed = material.moduli.young * members_[static_cast<std::size_t>(element)].section->area *
+                           (material.expansion - past.expansion);
+    force[0] += pressed;
+    force[6] -= pressed;
+    return force;
+  }
+
+  Trial trial(int element, const Eigen::VectorXd& u, const VariableState& state) const {
     const BeamPast& past = past_[static_cast<std::size_t>(element)];
     const Member& own = members_[static_cast<std::size_t>(element)];
-    const Vector12d step = increment(element, u);
-    const auto now = geometry<double>(past, motion_of(past, step));
-    const Vector12d force = past.force + uniform_beam<double>(*own.section, own.moduli, now.length, shear_) *
-                                             turned<double>(now.axes, step);
+    const Now material = this->material(element, state);
+    const auto now = geometry_of(element, u);
+    const Vector12d force =
+        held_force(element, material) + uniform_beam<double>(*own.section, material.moduli, now.length, shear_) *
+                                            turned<double>(now.axes, increment(element, u));
     const double turn = now.axes.row(0).dot(past.along.normalized());
     return {now.axes, force, past.elongation + 1.0 - turn};
   }
@@ -319,21 +354,22 @@ class RotatingBeam final : public ElementBlock {
     BeamMatrixOf<Derivative> stiffness;
   };
 
-  Turning turning(int element, const Eigen::VectorXd& u) const {
+  Turning turning(int element, const Eigen::VectorXd& u, const IsotropicModuli& moduli) const {
     const Member& own = members_[static_cast<std::size_t>(element)];
     const BeamPast& past = past_[static_cast<std::size_t>(element)];
     const Motion motion = motion_of(past, increment(element, u));
     Eigen::Matrix<Derivative, 6, 1> moving;
     for (int i = 0; i < 6; ++i) moving[i] = Derivative(motion[i], 6, i);
     const auto now = geometry<Derivative>(past, moving);
-    return {now.axes, uniform_beam<Derivative>(*own.section, own.moduli, now.length, shear_)};
+    return {now.axes, uniform_beam<Derivative>(*own.section, moduli, now.length, shear_)};
   }
 
   /// By the increments at hand, and by what they do to the axes and the length.
-  BeamMatrix tangent(int element, const Eigen::VectorXd& u) const {
-    const Turning now = turning(element, u);
+  BeamMatrix tangent(int element, const Eigen::VectorXd& u, const VariableState& state) const {
+    const Now material = this->material(element, state);
+    const Turning now = turning(element, u, material.moduli);
     const Eigen::Matrix<Derivative, 12, 1> local =
-        past_[static_cast<std::size_t>(element)].force.cast<Derivative>() +
+        held_force(element, material).cast<Derivative>() +
         now.stiffness * turned<Derivative>(now.axes, increment(element, u).cast<Derivative>().eval());
     const Eigen::Matrix<Derivative, 12, 1> global = turned<Derivative>(now.axes.transpose(), local);
     return of_increments(now.stiffness, now.axes) + of_motion(global);
@@ -359,23 +395,24 @@ class RotatingBeam final : public ElementBlock {
   /// The linear stiffness at the present length and what the present end forces add, in the present axes: that of
   /// Code_Aster 17.3. Torsion counts for nothing in it, nor does how axes and length change under the increments of the
   /// step, so that iterations converge linearly.
-  BeamMatrix plain_tangent(int element, const Eigen::VectorXd& u) const {
+  BeamMatrix plain_tangent(int element, const Eigen::VectorXd& u, const VariableState& state) const {
     const Member& own = members_[static_cast<std::size_t>(element)];
     const BeamPast& past = past_[static_cast<std::size_t>(element)];
-    const Trial now = trial(element, u);
+    const Trial now = trial(element, u, state);
     const double length = (past.along + increment(element, u).segment<3>(6)).norm();
-    return turned_back(uniform_beam<double>(*own.section, own.moduli, length, shear_) +
+    return turned_back(uniform_beam<double>(*own.section, material(element, state).moduli, length, shear_) +
                            beam_geometric_stiffness(*own.section, length,
                                                     {section_forces(now.force, 0), section_forces(now.force, 6)}),
                        now.axes);
   }
 
   /// Of small displacements from where the beam was at first.
-  BeamMatrix initial_stiffness(int element) const {
+  BeamMatrix initial_stiffness(int element, const VariableState& state) const {
     const Member& own = members_[static_cast<std::size_t>(element)];
     const BeamPast first = first_past(element);
     const auto now = geometry<double>(first, motion_of(first, Vector12d::Zero()));
-    return turned_back(uniform_beam<double>(*own.section, own.moduli, first.along.norm(), shear_), now.axes);
+    return turned_back(uniform_beam<double>(*own.section, material(element, state).moduli, first.along.norm(), shear_),
+                       now.axes);
   }
 
   /// At the end whose part of the end forces begins at `first`.
@@ -411,6 +448,7 @@ class RotatingBeam final : public ElementBlock {
 
   const Mesh& mesh_;
   bool shear_;
+  bool constant_ = true;
   std::vector<int> cells_;
   ElementMap map_;
   std::vector<Member> members_;

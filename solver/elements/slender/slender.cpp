@@ -68,6 +68,12 @@ class SlenderBlock final : public ElementBlock {
   }
 
   bool takes_initial_stresses() const override { return true; }
+  bool scales_initial_stresses() const override { return !constant_; }
+  void write_moduli(const VariableState& state, std::span<double> out) const override {
+    for (int element = 0; element < map_.element_count(); ++element)
+      out[static_cast<std::size_t>(element)] =
+          named(element, [&] { return members_[element].material->young(material_point(element, state)); });
+  }
   /// Forces at the ends: see stresses().
   void add_forces_of_stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<const double> stresses,
                               ForceSum forces) const override {
@@ -296,14 +302,7 @@ class SlenderBlock final : public ElementBlock {
   }
 
   MaterialPoint material_point(int element, const VariableState& state) const {
-    constexpr std::array<double, 2> middle = {0.5, 0.5};
-    const auto nodes = map_.nodes(element);
-    MaterialPoint at;
-    state.sample(cells_[element], nodes, middle, VariableState::all_points, at);
-    std::array<double, 3> place{};
-    for (int j = 0; j < 3; ++j) place[j] = 0.5 * (mesh_.nodes[nodes[0]][j] + mesh_.nodes[nodes[1]][j]);
-    at.place(place);
-    return at;
+    return middle_of(mesh_, cells_[element], state);
   }
 
   Expansion expansion_of(int element, const VariableState& state) const {

@@ -53,6 +53,19 @@ BeamMatrix in_global_axes(const BeamMatrix& own, const Eigen::Matrix3d& axes) {
 
 }  // namespace
 
+MaterialPoint middle_of(const Mesh& mesh, int cell, const VariableState& state) {
+  constexpr std::array<double, 2> halves = {0.5, 0.5};
+  const auto nodes = mesh.cell(cell);
+  MaterialPoint at;
+  state.sample(cell, nodes, halves, VariableState::all_points, at);
+  std::array<double, 3> place{};
+  for (std::size_t j = 0; j < 3; ++j)
+    place[j] =
+        0.5 * (mesh.nodes[static_cast<std::size_t>(nodes[0])][j] + mesh.nodes[static_cast<std::size_t>(nodes[1])][j]);
+  at.place(place);
+  return at;
+}
+
 const BeamSection& slender_section(const BlockInput& input, int cell) {
   const std::string name = input.model.mesh->cell_name(cell);
   const auto found = input.properties.sections.find(cell);

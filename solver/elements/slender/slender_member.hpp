@@ -25,6 +25,9 @@ struct SlenderMember {
 /// Throws Error as slender_section() and own_axes().
 SlenderMember slender_member(const BlockInput& input, int cell);
 
+/// Where the material of a bar or beam is that of the whole: in its middle, with the means of the command variables.
+MaterialPoint middle_of(const Mesh& mesh, int cell, const VariableState& state);
+
 /// Of a bar with Dim translations a node.
 template <int Dim>
 Eigen::Matrix<double, 2 * Dim, 2 * Dim> bar_stiffness(const SlenderMember& member, const IsotropicModuli& material) {

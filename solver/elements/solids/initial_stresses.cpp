@@ -41,6 +41,15 @@ void add_on_cells(std::span<const int> cells, const std::vector<double>& values,
 
 }  // namespace
 
+std::vector<double> Assembler::InitialStresses::now(const VariableState& state) const {
+  if (moduli.empty()) return values;
+  std::vector<double> scaled = values, young(moduli.size());
+  block->write_moduli(state, young);
+  const std::size_t each = values.size() / moduli.size();
+  for (std::size_t k = 0; k < scaled.size(); ++k) scaled[k] *= young[k / each] / moduli[k / each];
+  return scaled;
+}
+
 Eigen::VectorXd Assembler::with_initial(Eigen::VectorXd forces) const {
   if (initial_forces_.size() > 0) forces += initial_forces_;
   return forces;
@@ -49,8 +58,8 @@ Eigen::VectorXd Assembler::with_initial(Eigen::VectorXd forces) const {
 std::vector<double> Assembler::stresses_in(const ElementBlock& block, const Eigen::VectorXd& u,
                                            const ImposedStrains* imposed) const {
   std::vector<double> values = stresses_of(block, u, state_, imposed);
-  for (const auto& [other, initial] : initial_stresses_)
-    if (other == &block) std::ranges::transform(values, initial, values.begin(), std::plus<>());
+  for (const InitialStresses& initial : initial_stresses_)
+    if (initial.block == &block) std::ranges::transform(values, initial.now(state_), values.begin(), std::plus<>());
   return values;
 }
 
@@ -81,7 +90,7 @@ void Assembler::resume(const Eigen::VectorXd& u, const ElementField* stresses, c
     block->resume(u, state_, read_stresses(*block, stresses, *model_.mesh),
                   read_block(*block, variable_names(block->variable_count()), variables, *model_.mesh));
   }
-  sum_initial_forces(u);
+  sum_initial_forces();
 }
 
 void Assembler::begin_without_forces(const Eigen::VectorXd& u) {
@@ -91,16 +100,27 @@ void Assembler::begin_without_forces(const Eigen::VectorXd& u) {
         !block->takes_initial_stresses())
       continue;
     std::vector<double> values = stresses_of(*block, u, state_, imposed_.get());
+    if (std::ranges::all_of(values, [](double value) { return value == 0.0; })) continue;
     for (double& value : values) value = -value;
-    initial_stresses_.emplace_back(block.get(), std::move(values));
+    add_initial_stresses(*block, std::move(values));
   }
-  sum_initial_forces(u);
+  sum_initial_forces();
 }
 
-void Assembler::sum_initial_forces(const Eigen::VectorXd& u) {
+void Assembler::add_initial_stresses(const ElementBlock& block, std::vector<double> values) {
+  InitialStresses& added = initial_stresses_.emplace_back(&block, std::move(values));
+  if (!block.scales_initial_stresses()) return;
+  added.moduli.resize(block.cells().size());
+  block.write_moduli(state_, added.moduli);
+}
+
+// In elements without a memory forces of given stresses do not depend on the displacements.
+void Assembler::sum_initial_forces() {
   if (initial_stresses_.empty()) return;
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(dofs_.size());
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
-  for (const auto& [block, values] : initial_stresses_) block->add_forces_of_stresses(u, state_, values, sums);
+  for (const InitialStresses& initial : initial_stresses_)
+    initial.block->add_forces_of_stresses(none, state_, initial.now(state_), sums);
   initial_forces_ = rounded(sums);
 }
 
@@ -174,12 +194,12 @@ void Assembler::take_initial_stresses(const ElementBlock& block, const Eigen::Ve
                 "only isotropic continua in small or logarithmic strains, and springs, bars, beams and plates in small "
                 "displacements, take up stresses of another origin");
   }
-  initial_stresses_.emplace_back(&block, std::move(excess));
+  add_initial_stresses(block, std::move(excess));
 }
 
 ElementField Assembler::with_initial(ElementField plate_forces) const {
-  for (const auto& [block, values] : initial_stresses_)
-    if (is_of_plates(*block)) add_on_cells(block->cells(), values, plate_forces);
+  for (const InitialStresses& initial : initial_stresses_)
+    if (is_of_plates(*initial.block)) add_on_cells(initial.block->cells(), initial.values, plate_forces);
   return plate_forces;
 }
 

@@ -143,11 +143,12 @@ void StaticRun::resume() {
   if (problem_.initial) {
     assembler_.resume(now_.state.u, address(problem_.initial->stresses),
                       of_memory(address(problem_.initial->variables)));
-    if (problem_.initial->displacement && !problem_.initial->stresses) assembler_.begin_without_forces(now_.state.u);
+    if (!problem_.initial->stresses) assembler_.begin_without_forces(now_.state.u);
   } else if (!result_.steps.empty()) {
     assembler_.resume(now_.state.u, field_of_last_step("SIEF_ELGA"), of_memory(field_of_last_step("VARI_ELGA")));
   } else {
     assembler_.resume(now_.state.u, nullptr, nullptr);
+    assembler_.begin_without_forces(now_.state.u);
   }
 }
 
