@@ -91,10 +91,22 @@ Diagnosis diagnosis_of_unbalanced(const IterationReport& last, const IteratedPro
           "where the loads push, or hold the body by DDL_IMPO"};
 }
 
+/// Whether a residual was so much larger than the first that no step could have meant it.
+bool has_run_away(std::span<const IterationReport> history) {
+  constexpr double far = 1e6;
+  return std::ranges::any_of(history, [&](const IterationReport& each) {
+    return each.absolute_residual > far * history.front().absolute_residual;
+  });
+}
+
 Diagnosis likely_cause(std::span<const IterationReport> history, const IteratedProblem& problem) {
   constexpr std::string_view raise_limit = "raise RESI_GLOB_MAXI or RESI_GLOB_RELA",
                              iterate_more = "take smaller steps, or allow more iterations (ITER_GLOB_MAXI)";
   const IterationReport& last = history.back();
+  if (!std::isfinite(last.absolute_residual) && has_run_away(history))
+    return {"iterations diverge, until forces are beyond what numbers hold",
+            "take smaller steps, search along the corrections (RECH_LINEAIRE), or write MATRICE='TANGENTE' where it is "
+            "'ELASTIQUE'"};
   if (!std::isfinite(last.absolute_residual))
     return {"the residual is not a number: forces or properties are unbounded",
             "check the materials, sections and load functions"};

@@ -43,8 +43,8 @@ ConvergenceCriterion::Measure measure(const ConvergenceCriterion& criterion, con
   auto by_component = reference.share_by_component(weighed);
   if (by_component) by_component = std::max(*by_component, *reference.share_by_component_of_all(weighed_left));
   return criterion.measure(
-      std::max({at_supports, largest_component(weighed_left), largest_component(weighed)}), load, is_rounding,
-      std::max(reference.share(imbalance.residual), reference.share_of_all(imbalance.left)), by_component);
+      largest_of({at_supports, largest_component(weighed_left), largest_component(weighed)}), load, is_rounding,
+      largest_of({reference.share(imbalance.residual), reference.share_of_all(imbalance.left)}), by_component);
 }
 
 }  // namespace comma::solver

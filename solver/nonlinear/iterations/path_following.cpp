@@ -367,7 +367,7 @@ double PathFollowing::residual_or_infinity(double intensity, const Correction& c
   try {
     take_reactions(intensity, change, loads);
     evaluate(intensity, loads, u + change.constant + intensity * change.linear);
-    return std::max(largest_component(residual_), largest_component(held_.imbalance(balance_)));
+    return largest_of({largest_component(residual_), largest_component(held_.imbalance(balance_))});
   } catch (const Error& error) {
     if (error.code() != "integration-failure") throw;
     return std::numeric_limits<double>::infinity();

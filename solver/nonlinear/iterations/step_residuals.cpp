@@ -54,7 +54,7 @@ ConvergenceCriterion::Measure NewtonSolver::distance(const NewtonState& state) c
   const MixedContact::HeldImbalance held = mixed_ ? mixed_->held_imbalance(balance_) : MixedContact::HeldImbalance();
   const Eigen::VectorXd left = held_imbalance();
   const bool rounds = is_rounding(state) && largest_component(weights_.weighed_all(left)) <= rounding_share * load_;
-  return comma::solver::measure(criterion_, reference_, weights_, {residual_, left}, std::max(held.largest, load_),
+  return comma::solver::measure(criterion_, reference_, weights_, {residual_, left}, largest_of({held.largest, load_}),
                                 held.counted, rounds);
 }
 

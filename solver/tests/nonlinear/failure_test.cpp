@@ -1,10 +1,27 @@
 #include "solver/nonlinear/failure.hpp"
 
+#include <cmath>
+
 #include <catch2/catch.hpp>
 
+#include "cantilever.hpp"
 #include "solver/error.hpp"
 
 using namespace comma::solver;
+
+TEST_CASE("Newton's method: displacements that overflow are in no balance") {
+  testing::Cantilever cantilever;
+  NewtonOptions options;
+  options.tangent.prediction = options.tangent.correction = TangentKind::elastic;
+  options.max_iterations = 40;
+  StepPlan plan;
+  plan.instants = {0.0, 1.0};
+  std::vector<double> residuals;
+  const auto note = [&](const IterationReport& report) { residuals.push_back(report.absolute_residual); };
+  CHECK_THROWS_WITH(cantilever.solve(plan, options, note), Catch::Contains("iterations diverge"));
+  REQUIRE(!residuals.empty());
+  CHECK_FALSE(std::isfinite(residuals.back()));
+}
 
 TEST_CASE("Newton's method: a limit below rounding is told from a slow residual") {
   const auto after = [](double relative, double absolute) {
