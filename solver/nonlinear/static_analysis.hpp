@@ -90,8 +90,8 @@ struct TangentPolicy {
 /// How far to go along a correction d of Newton's method (R5.03.01, RECH_LINEAIRE): where the work of the residual on
 /// d, g(rho) = d . R(u + rho d), has fallen below a share of g(0). It takes no part in the first iteration of a step.
 /// By CORDE along secants through the last two trials. By MIXTE three times as far until the work changes sign, then
-/// along such secants too, but no nearer than halfway between the places where the sign differs, and no farther than
-/// the far one (rho of Code_Aster 17.3, trial by trial).
+/// along such secants too where they stay between the places where the sign differs, and, where the sign has just
+/// changed, in the half of the last trial; else in the middle (rho of Code_Aster 17.3, trial by trial).
 struct LineSearch {
   bool bracketed = false;  ///< MIXTE; else CORDE
   double tolerance = 0.1;  ///< RESI_LINE_RELA

@@ -29,6 +29,7 @@ class LineTrials {
 
   std::optional<double> after(const LineTrial& trial) {
     const std::optional<double> next = secant(last_, trial);
+    const bool changes_sign = last_.work * trial.work < 0.0;
     last_ = trial;
     if (!options_.bracketed) return next;
     if (trial.work * start_ <= 0.0) {
@@ -37,7 +38,10 @@ class LineTrials {
       near_ = trial.rho;
       if (std::isinf(far_)) return 3.0 * trial.rho;
     }
-    return std::clamp(next.value_or(0.0), 0.5 * (near_ + far_), far_);
+    const double middle = 0.5 * (near_ + far_);
+    if (!next) return middle;
+    const bool is_taken = changes_sign ? (*next - middle) * (trial.rho - middle) >= 0.0 : near_ < *next && *next < far_;
+    return is_taken ? *next : middle;
   }
 
  private:

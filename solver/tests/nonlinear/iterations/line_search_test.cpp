@@ -57,14 +57,16 @@ TEST_CASE("a way that would be about zero is RHO_EXCL, one that would lead back 
   CHECK(second_trial(0.02) == exactly(0.02));
 }
 
-TEST_CASE("MIXTE goes three times as far until work changes sign, and then back, no nearer than halfway") {
+TEST_CASE("MIXTE goes three times as far until work changes sign, and then back along secants or to the middle") {
   LineSearch options{.bracketed = true, .tolerance = 1e-6, .max_iterations = 5, .largest = 100.0};
   std::vector<double> trials;
   search_line(options, 1.0, [&](double rho) {
     trials.push_back(rho);
     return 1.0 - 0.1 * rho;
   });
-  CHECK(trials == std::vector<double>{1.0, 3.0, 9.0, 27.0, 18.0, 13.5});
+  REQUIRE(trials.size() == 6);
+  CHECK(std::vector<double>(trials.begin(), trials.begin() + 5) == std::vector<double>{1.0, 3.0, 9.0, 27.0, 18.0});
+  CHECK(trials[5] == exactly(10.0));  // the sign stays from 27 to 18: the secant counts wherever it lies between
   trials.clear();
   options.max_iterations = 3;
   search_line(options, 0.88, [&](double rho) {
@@ -74,7 +76,18 @@ TEST_CASE("MIXTE goes three times as far until work changes sign, and then back,
   REQUIRE(trials.size() == 4);
   CHECK(trials[2] == 9.0);
   CHECK(trials[3] == exactly(3.0 + 6.0 * 0.13 / 0.15));  // the secant
+  // Where the sign changes back, the secant counts in the half of the last trial alone.
   trials.clear();
+  options.max_iterations = 5;
+  search_line(options, 1.0, [&](double rho) {
+    trials.push_back(rho);
+    return rho < 1.0 ? 1.0 : rho < 2.5 ? 0.2 : rho < 2.75 ? 0.4 : -0.1;
+  });
+  REQUIRE(trials.size() > 4);
+  CHECK(trials[2] == exactly(1.0 + 2.0 * 0.2 / 0.3));  // between 1 and 3, on the side of 3
+  CHECK(trials[3] == exactly(0.5 * (trials[2] + 3.0)));
+  trials.clear();
+  options.max_iterations = 3;
   options.largest = 2.0;
   search_line(options, 1.0, [&](double rho) {
     trials.push_back(rho);
