@@ -141,4 +141,11 @@ inline bool is_condensed(const ContactDefinition& definition) {
   });
 }
 
+/// Whether it takes part in the stiffness of the bodies in Code_Aster: all that is weak or penalised.
+inline bool has_stiffness(const ContactDefinition& definition) {
+  if (definition.formulation == ContactFormulation::mixed) return true;
+  return std::ranges::any_of(definition.zones,
+                             [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.friction > 0.0; });
+}
+
 }  // namespace comma::solver

@@ -67,22 +67,26 @@ void NewtonSolver::start_step(double duration) {
   most_iterations_ = options_.max_iterations;
   duration_ = duration;
   is_short_ = duration < policy_.elastic_below;
-  if (!is_short_) return;
-  policy_.correction = TangentKind::elastic;
-  policy_.iterations = policy_.elastic_iterations;
-  most_iterations_ = options_.max_elastic_iterations;
+  if (is_short_) {
+    policy_.correction = TangentKind::elastic;
+    policy_.iterations = policy_.elastic_iterations;
+    most_iterations_ = options_.max_elastic_iterations;
+  }
+  if (!contact_stiffens_) return;
+  policy_.steps = policy_.iterations = 1;
+  if (policy_.correction == TangentKind::elastic) policy_.correction = TangentKind::unloading;
 }
 
 int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::VectorXd offset,
                         const ConditionSet& conditions, int earlier, int active_set_limit, NewtonState& state) {
   active_set_limit_ = active_set_limit;
   take_conditions(time, conditions, offset, state);
-  start(external, offset, state);
+  start(external, offset, earlier + 1, state);
   std::vector<IterationReport> history;
   int most = std::max(1, most_iterations_ - earlier);
   for (int iteration = 1; iteration <= most; ++iteration) {
-    if (iteration > 1 && is_tangent_due(policy_, tangent_, iteration, steps_) &&
-        tangent_.refresh(state.u, kind_of(iteration)))
+    if (iteration > 1 && is_tangent_due(policy_, tangent_, earlier + iteration, steps_) &&
+        tangent_.refresh(state.u, kind_of(earlier + iteration)))
       forget_stiffness();
     ++counters_.newton_iterations;
     const Eigen::VectorXd before = state.reduced, where = state.u, balance = balance_;
@@ -91,7 +95,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
     if (relations_.update) offset = relations_.update(time, state);
     const bool is_linear = mixed_ && mixed_->is_linear();
     if (is_linear) correction.changes = mixed_->linearise(state.u, time);
-    const double taken = searches(iteration) ? search(before, external, offset, state) : 1.0;
+    const double taken = searches(earlier + iteration) ? search(before, external, offset, state) : 1.0;
     const bool is_whole = taken == 1.0 || !has_conditions();
     if (knows_reactions()) held_.take(held_.of(balance, change), taken);
     evaluate(state, external);
@@ -146,10 +150,12 @@ int NewtonSolver::further_iterations(double time, const std::vector<IterationRep
   return further;
 }
 
-/// The tangent and the residual of the first iteration. A nonlinear body is left where it is in balance, and what the
+/// The tangent and the residual of the first iteration, which is not the step's first where a new geometry of contact
+/// goes on from the one before (Code_Aster 17.3). A nonlinear body is left where it is in balance, and what the
 /// conditions on displacements move goes through the tangent: moved alone, the nodes under conditions would tear at the
 /// elements beside them.
-void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state) {
+void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, int iteration,
+                         NewtonState& state) {
   const Eigen::VectorXd moved = elimination_.transformation() * state.reduced + offset;
   const Eigen::VectorXd imposed = moved - state.u;
   const bool is_linear = tangent_.is_constant();
@@ -159,13 +165,16 @@ void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd&
   weights_.take(assembler_, elimination_);
   const bool is_other =
       is_short_ && tangent_.kind() != policy_.correction;  // one that is not due goes on from a step of normal length
-  if ((is_other || is_tangent_due(policy_, tangent_, 1, steps_)) && tangent_.refresh(state.u, kind_of(1)))
+  if ((is_other || is_tangent_due(policy_, tangent_, iteration, steps_)) &&
+      tangent_.refresh(state.u, kind_of(iteration)))
     forget_stiffness();
-  const auto forces_at = [&](const Eigen::VectorXd& u) { return assembler_.starting_forces(u); };
+  const auto forces_at = [&](const Eigen::VectorXd& u) {
+    return iteration == 1 ? assembler_.starting_forces(u) : assembler_.internal_forces(u);
+  };
   const bool may_be_known = is_linear && variable_forces_.size() == 0;
   measure(loads_at(state.u, external),
           may_be_known ? known_forces_.after_move(before, moved, forces_at) : forces_at(state.u));
-  if (!is_linear && !imposed.isZero(0.0)) residual_ -= tangent_.reduced_forces(state.u, imposed, kind_of(1));
+  if (!is_linear && !imposed.isZero(0.0)) residual_ -= tangent_.reduced_forces(state.u, imposed, kind_of(iteration));
 }
 
 void NewtonSolver::forget_stiffness() {

@@ -56,6 +56,9 @@ class NewtonSolver {
 
   /// How inequalities are solved from now on; the definition must outlive the solver.
   void use_algorithm(const ContactDefinition& definition) { definition_ = &definition; }
+  /// From now on each iteration makes the tangent again, whatever TangentPolicy says, and ELASTIQUE is that of where
+  /// the bodies are, with elastic moduli: what contact adds to the stiffness makes Code_Aster 17.3 do so.
+  void take_stiffness_of_contact() { contact_stiffens_ = true; }
 
   /// Contact in the mixed formulation takes part in every solve from now on; null: none.
   void attach(MixedContact* mixed) { mixed_ = mixed; }
@@ -107,8 +110,9 @@ class NewtonSolver {
     int changes = 0;    ///< rows whose status changed
   };
 
+  /// `iteration`: of the step, from 1; geometries of contact that go on from one another count on.
   TangentKind kind_of(int iteration) const;
-  void start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, NewtonState& state);
+  void start(const Eigen::VectorXd& external, const Eigen::VectorXd& offset, int iteration, NewtonState& state);
   void take_conditions(double time, const ConditionSet& conditions, const Eigen::VectorXd& offset,
                        const NewtonState& state);
   void forget_stiffness();
@@ -180,6 +184,7 @@ class NewtonSolver {
   TangentKind prediction_;
   TangentPolicy policy_;  ///< of this step
   double duration_ = 0.0;
+  bool contact_stiffens_ = false;
   bool is_short_ = false;  ///< this step takes the elastic stiffness because of its length
   int most_iterations_;    ///< of this step
   ResidualWatch watch_;

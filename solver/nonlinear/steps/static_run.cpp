@@ -56,6 +56,9 @@ StaticRun::StaticRun(const StaticProblem& problem, const NewtonOptions& options,
   const std::vector<int> eliminated = dofs_without_reactions(problem.loads, dofs_);
   newton_.set_eliminated(eliminated);
   if (problem.contact) newton_.use_algorithm(*problem.contact);
+  const auto is_penalised = [](const UnilateralCondition& each) { return each.penalty > 0.0; };
+  if ((problem.contact && has_stiffness(*problem.contact)) || std::ranges::any_of(problem.unilateral, is_penalised))
+    newton_.take_stiffness_of_contact();
   const bool has_bounds = problem.contact || !problem.unilateral.empty();
   takes_plain_tangents_ =
       !has_bounds && followers_.empty() && has_rotating_beams(*problem.model, problem.behaviours.get());

@@ -53,9 +53,10 @@ int StaticRun::solve_step(double time) {
     if (updates || !now_.paired || (update == 0 && (pairs_each_step() || thickness_changes())))
       pair(time, update == 0 ? start_ : now_.state.u, geometry ? &*geometry : nullptr);
     ConditionSet next = make_conditions(now_.pairs, problem_.unilateral, mesh_, dofs_, time);
-    if (update == 0 || mixed_ || !same_rows(next, now_.conditions)) {
-      resize_multipliers(next);
-      now_.conditions = std::move(next);
+    const bool is_other = update == 0 || mixed_ || !same_rows(next, now_.conditions);
+    if (is_other) resize_multipliers(next);
+    now_.conditions = std::move(next);
+    if (is_other) {
       // Between updates of the geometry the discrete formulation goes on counting, the mixed one begins again
       // (ssnv504f, ssnv504j).
       const int earlier = is_weak ? 0 : iterations;
