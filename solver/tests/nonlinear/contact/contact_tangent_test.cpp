@@ -10,17 +10,15 @@ using comma::solver::testing::Scene;
 
 namespace contact_tangent_test {
 
-/// The residuals of one step that pulls a block in large strains over the edge of a stiff one.
+/// The residuals of one step that pulls a block in large strains over another.
 std::vector<double> residuals(TangentPolicy policy, const std::function<void(ContactDefinition&)>& change) {
   Scene scene;
-  const Scene::Block below = scene.block("b", {0, 0}, {4, 1}, 4, 1, 1e5, 0.0);
+  const Scene::Block below = scene.block("b", {0, 0}, {4, 1}, 4, 1, 300.0, 0.0);
   const Scene::Block above = scene.block("a", {0.5, 1}, {3, 1}, 5, 2, 100.0, 0.3);
   scene.problem.behaviours = std::make_shared<const BehaviourOfCells>(
       static_cast<std::size_t>(scene.mesh->cell_count()), CellBehaviour{Kinematics::green_lagrange});
-  for (const auto& row : below.nodes) {
-    scene.impose(row, Component::dx, 0.0);
-    scene.impose(row, Component::dy, 0.0);
-  }
+  scene.impose(below.nodes.front(), Component::dx, 0.0);
+  scene.impose(below.nodes.front(), Component::dy, 0.0);
   scene.impose(above.nodes.back(), Component::dx, 0.3, true);
   scene.impose(above.nodes.back(), Component::dy, -0.2, true);
   scene.zone(below.top, above.bottom);
