@@ -66,6 +66,7 @@ void NewtonSolver::start_step(double duration) {
   policy_ = options_.tangent;
   most_iterations_ = options_.max_iterations;
   duration_ = duration;
+  is_moved_ = false;
   is_short_ = duration < policy_.elastic_below;
   if (is_short_) {
     policy_.correction = TangentKind::elastic;
@@ -169,7 +170,7 @@ void NewtonSolver::start(const Eigen::VectorXd& external, const Eigen::VectorXd&
       tangent_.refresh(state.u, kind_of(iteration)))
     forget_stiffness();
   const auto forces_at = [&](const Eigen::VectorXd& u) {
-    return iteration == 1 ? assembler_.starting_forces(u) : assembler_.internal_forces(u);
+    return iteration == 1 && !is_moved_ ? assembler_.starting_forces(u) : assembler_.internal_forces(u);
   };
   const bool may_be_known = is_linear && variable_forces_.size() == 0;
   measure(loads_at(state.u, external),
@@ -214,7 +215,7 @@ void NewtonSolver::take_conditions(double time, const ConditionSet& conditions, 
 }
 
 TangentKind NewtonSolver::kind_of(int iteration) const {
-  if (iteration > 1 || is_short_) return policy_.correction;
+  if (iteration > 1 || is_short_ || is_moved_) return policy_.correction;
   return at_start(prediction_);
 }
 

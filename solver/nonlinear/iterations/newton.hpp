@@ -59,6 +59,8 @@ class NewtonSolver {
   /// From now on each iteration makes the tangent again, whatever TangentPolicy says, and ELASTIQUE is that of where
   /// the bodies are, with elastic moduli: what contact adds to the stiffness makes Code_Aster 17.3 do so.
   void take_stiffness_of_contact() { contact_stiffens_ = true; }
+  /// This step begins at displacements that are guessed: what the material does there counts, not where it was.
+  void begin_moved() { is_moved_ = true; }
 
   /// Contact in the mixed formulation takes part in every solve from now on; null: none.
   void attach(MixedContact* mixed) { mixed_ = mixed; }
@@ -185,6 +187,7 @@ class NewtonSolver {
   TangentPolicy policy_;  ///< of this step
   double duration_ = 0.0;
   bool contact_stiffens_ = false;
+  bool is_moved_ = false;
   bool is_short_ = false;  ///< this step takes the elastic stiffness because of its length
   int most_iterations_;    ///< of this step
   ResidualWatch watch_;

@@ -107,7 +107,7 @@ class StaticRun {
   /// What the intensity multiplies, and what it does not.
   DrivenLoads driven_loads(double time);
   /// Puts the unknowns where the step is guessed to end, if anything but where it begins.
-  void guess(double time, const Eigen::VectorXd& offset);
+  void guess(double time);
   /// The surfaces as the displacements `u` have them: at first those with which the step begins, whatever is guessed of
   /// its end.
   void pair(double time, const Eigen::VectorXd& u, GeometryUpdates* updates);

@@ -40,7 +40,7 @@ int StaticRun::solve_step(double time) {
   const bool updates = problem_.contact && problem_.contact->geometry_update != GeometryUpdate::none;
   if (mixed_) mixed_->start_step(now_.state.u, time - last_instant_);
   start_ = now_.state.u;
-  guess(time, offset);
+  guess(time);
   const bool is_weak = problem_.contact && problem_.contact->formulation == ContactFormulation::mixed;
   if (options_.extrapolates_flow) {
     now_.conditions = make_conditions({}, {}, mesh_, dofs_, time);
@@ -136,7 +136,7 @@ DrivenLoads StaticRun::driven_loads(double time) {
   return loads;
 }
 
-void StaticRun::guess(double time, const Eigen::VectorXd& offset) {
+void StaticRun::guess(double time) {
   Eigen::VectorXd u = now_.state.u;
   if (options_.guessed)
     u = displacements_at(time, *options_.guessed, dofs_, now_.state.u);
@@ -145,7 +145,9 @@ void StaticRun::guess(double time, const Eigen::VectorXd& offset) {
   else
     return;
   now_.state.reduced = u(elimination_.kept());
-  now_.state.u = elimination_.transformation() * now_.state.reduced + offset;
+  // What is imposed comes with the correction: nodes that are put there alone would tear at the others.
+  now_.state.u = std::move(u);
+  newton_.begin_moved();
 }
 
 void StaticRun::pair(double time, const Eigen::VectorXd& u, GeometryUpdates* updates) {
