@@ -119,24 +119,22 @@ class InelasticBar final : public ElementBlock {
 
   void add_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                      double* values) const override {
-    for (int element = 0; element < map_.element_count(); ++element) {
-      const BarResponse response = respond(element, u, state);
-      const double stress = is_updated() ? response.state.stress : 0.0;
-      map_.add(element, matrix(element, place(element, u), response.tangent, stress).data(), column_starts, values);
-    }
+    for (int element = 0; element < map_.element_count(); ++element)
+      map_.add(element, matrix(element, place(element, u), respond(element, u, state).tangent).data(), column_starts,
+               values);
   }
   void add_elastic_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                              double* values) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const double young = young_of(material(element, state).plastic);
-      map_.add(element, matrix(element, place(element, u), young, 0.0).data(), column_starts, values);
+      map_.add(element, matrix(element, place(element, u), young).data(), column_starts, values);
     }
   }
   void add_initial_stiffness(const Eigen::VectorXd&, const VariableState& state, std::span<const int> column_starts,
                              double* values) const override {
     for (int element = 0; element < map_.element_count(); ++element) {
       const double young = young_of(material(element, state).plastic);
-      map_.add(element, matrix(element, first_place(element), young, 0.0).data(), column_starts, values);
+      map_.add(element, matrix(element, first_place(element), young).data(), column_starts, values);
     }
   }
 
@@ -364,12 +362,10 @@ class InelasticBar final : public ElementBlock {
     return integrate(past, material(element, state), strain);
   }
 
-  /// With what the stress adds when the bar turns; how the strain of the step follows the turn is left out.
-  Matrix matrix(int element, const Place& at, double tangent, double stress) const {
+  /// Without what a bar that turns adds to it, as Code_Aster 17.3 has it: iterations converge linearly then.
+  Matrix matrix(int element, const Place& at, double tangent) const {
     const double area = members_[static_cast<std::size_t>(element)].area;
-    const Eigen::Matrix<double, Dim, Dim> block =
-        area / at.length *
-        ((tangent - stress) * (at.along * at.along.transpose()) + stress * Eigen::Matrix<double, Dim, Dim>::Identity());
+    const Eigen::Matrix<double, Dim, Dim> block = tangent * area / at.length * (at.along * at.along.transpose());
     Matrix k;
     k << block, -block, -block, block;
     std::array<bool, Dim> invariant;
