@@ -43,9 +43,12 @@ constexpr double far_outside_cell = 1e3;
 constexpr int most_embedding_iterations = 30;
 /// How far outside the reference cell, as a share of its extent, a point still counts as inside.
 constexpr double inside_tolerance = 1e-10;
-/// How far outside a curved cell that is chosen by its corners a point still has a place of its own in it, as a share
-/// of the reference cell (17.3: QUAD8 between 0.00997 and 0.01005, TRIA6 between 0.00995 and 0.01005).
+/// How far outside a cell that is chosen by its corners a point still has a place of its own in it, as a share of the
+/// reference cell (17.3: QUAD8 between 0.00997 and 0.01005, TRIA6 between 0.00995 and 0.01005; QUAD4 between 0.009 and
+/// 0.011).
 constexpr double beside_tolerance = 0.01;
+/// Distances to cells that differ by less of what all cells extend over are equal.
+constexpr double same_distance = 1e-12;
 
 /// `share` of its extent: the reference cell goes from -1 to 1 or from 0 to 1.
 bool is_inside(CellType type, const ReferencePoint& at, double share) {
@@ -192,15 +195,20 @@ std::vector<double> whole_weights(const Mesh& mesh, int cell, const Eigen::Vecto
 std::vector<Embedding> straight_hosts(const Mesh& straight, std::span<const Guest> guests, double farthest) {
   std::vector<int> cells(static_cast<std::size_t>(straight.cell_count()));
   std::iota(cells.begin(), cells.end(), 0);
-  const BoxTree tree(boxes_of(straight, cells));
+  const std::vector<Box> boxes = boxes_of(straight, cells);
+  Box all;
+  for (const Box& box : boxes) all.extend(box);
+  const double same = boxes.empty() ? 0.0 : same_distance * all.diagonal().norm();
+  const BoxTree tree(boxes);
   std::vector<Embedding> result;
   for (const Guest& guest : guests) {
     Embedding best{guest.node, -1, {}, std::numeric_limits<double>::infinity()};
     tree.search(guest.at, [&](int cell) {
       Embedding here = on_cell(straight, guest, cell);
-      const bool is_better = here.distance < best.distance || (here.distance == best.distance && cell < best.cell);
-      if (is_better) best = std::move(here);
-      return best.distance;
+      const double least = std::min(best.distance, here.distance);
+      const bool is_near = here.distance <= least + same;
+      if (is_near && (cell < best.cell || best.distance > least + same)) best = std::move(here);
+      return least + same;
     });
     if (!(best.distance <= farthest)) best.cell = -1;
     result.push_back(std::move(best));
@@ -219,7 +227,7 @@ std::vector<Embedding> hosts_within(const Mesh& mesh, std::span<const Guest> gue
     Embedding& host = hosts[i];
     if (host.cell < 0) continue;
     const int own = rising[static_cast<std::size_t>(host.cell)];
-    if (straight.cell_types[host.cell] != mesh.cell_types[own])
+    if (host.distance > 0.0 || straight.cell_types[host.cell] != mesh.cell_types[own])
       host.weights = whole_weights(mesh, own, guests[i].at, host);
     host.cell = own;
   }

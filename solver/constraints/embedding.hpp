@@ -23,11 +23,11 @@ struct Embedding {
 };
 
 /// Each node with the nearest of the cells (edges, faces or solids) and the point of it that is nearest. As in
-/// Code_Aster 17.3 nearness is that to the cells which the corners make, of equals the first; the weights are those of
-/// the whole cell at the node, up to a hundredth of the reference cell outside of it, and further off (on lines, and on
-/// surfaces in space, whatever the distance) those where the corners put the nearest place. Nodes of the cells
-/// themselves are left out: they move with them anyway. Throws Error `no-host` for a node further than `farthest` from
-/// all cells.
+/// Code_Aster 17.3 nearness is that to the cells which the corners make, of equals (but for rounding) the first; the
+/// weights are those of the whole cell at the node, up to a hundredth of the reference cell outside of it, and further
+/// off (on lines, and on surfaces in space, whatever the distance) those where the corners put the nearest place. Nodes
+/// of the cells themselves are left out: they move with them anyway. Throws Error `no-host` for a node further than
+/// `farthest` from all cells.
 std::vector<Embedding> embed(const Mesh& mesh, std::span<const int> nodes, std::span<const int> cells,
                              double farthest = std::numeric_limits<double>::infinity());
 

@@ -86,6 +86,26 @@ TEST_CASE("a node beside the cells is tied to the nearest point of the nearest o
   CHECK(sum == Approx(0.0).margin(1e-15));
 }
 
+TEST_CASE("up to a hundredth beside a cell a place has its own value, and the first of equally near cells has it") {
+  Mesh mesh;
+  mesh.dimension = 2;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}, {2, 1, 0}};
+  mesh.add_cell(CellType::quad4, std::array{1, 4, 5, 2});
+  mesh.add_cell(CellType::quad4, std::array{0, 1, 2, 3});
+  const auto height = [&](double x, double y) {
+    const Embedding host = embed_places(mesh, std::vector{Eigen::Vector3d(x, y, 0)}, std::array{0, 1}, 1.0).front();
+    double sum = 0.0;
+    for (std::size_t a = 0; a < host.weights.size(); ++a)
+      sum += host.weights[a] * mesh.nodes[mesh.cell(host.cell)[a]][1];
+    return sum;
+  };
+  CHECK(height(0.3, -0.009) == exactly(-0.009));
+  CHECK(height(0.3, -0.011) == 0.0);
+  // A place on the edge of both, and one that rounding has moved into the second.
+  for (const double x : {1.0, 1.0 - 2e-16, 1.0 + 2e-16})
+    CHECK(embed_places(mesh, std::vector{Eigen::Vector3d(x, 0.5, 0)}, std::array{0, 1}, 1.0).front().cell == 0);
+}
+
 TEST_CASE("a node beside a shell moves and turns with it as a rigid body does") {
   Model model;
   model.mesh = std::make_shared<Mesh>();
