@@ -27,13 +27,15 @@ std::vector<double> Archive::missed(std::span<const double> computed) const {
 
 void Archive::update(solver::Result& result) {
   auto& steps = result.steps;
-  for (const std::string& name : left_out_) steps.back().fields.erase(name);
   const bool is_initial = steps.size() == 1;
   if (!is_initial) ++steps_;
   if (!last_wanted_) {
     steps.back().order = steps[steps.size() - 2].order;
     steps.erase(steps.end() - 2);
+  } else if (has_own_) {
+    for (const std::string& name : left_out_) steps[steps.size() - 2].fields.erase(name);
   }
+  has_own_ = true;
   last_wanted_ = is_initial || is_wanted(steps.back().instant, steps_);
 }
 

@@ -10,14 +10,15 @@
 
 namespace comma::commands {
 
-/// The initial state and the last step are kept in any case.
+/// The initial state and the last step are kept in any case, the last with all of its fields: a computation goes on
+/// from it (Code_Aster 17.3).
 class Archive {
  public:
   /// `call`: STAT_NON_LINE, with ARCHIVAGE or without (everything is kept).
   explicit Archive(const interpreter::Call& call);
 
-  /// To be called each time a step has been appended to `result`: drops the step before if it is not to be kept, and
-  /// the fields that are not wanted. Steps are numbered as they are kept.
+  /// To be called each time a step has been appended to `result`: drops the step before if it is not to be kept, or its
+  /// fields that are not wanted. Steps are numbered as they are kept.
   void update(solver::Result& result);
 
   /// Of the instants named, those among the `computed` ones of all steps at which none has ended.
@@ -32,6 +33,7 @@ class Archive {
   std::vector<std::string> left_out_;
   int steps_ = 0;            ///< computed so far, the initial state aside
   bool last_wanted_ = true;  ///< of the last step
+  bool has_own_ = false;     ///< the last step is of this computation
 };
 
 }  // namespace comma::commands
