@@ -185,10 +185,23 @@ void read_table(const Call& call, solver::TabulatedFunction& function) {
   function.y = numbers_in(table, y, call);
 }
 
-// A function asks for rising abscissas, a table may have its rows in any order.
-void sort_abscissas(const Call& call, solver::TabulatedFunction& function) {
+// A function asks for rising abscissas, a table may have its rows in any order. Of equal ones the function has the
+// value of the first row, and steps to that of the last (Code_Aster 17.3); a line beyond them has no slope.
+void sort_abscissas(const Call& call, solver::TabulatedFunction& function, interpreter::Diagnostics& diagnostics) {
   function.sort_points();
-  check_rising(call, call.given("TABLE") ? "TABLE" : "RESULTAT", function.x);
+  const auto& x = function.x;
+  const auto twice = std::ranges::adjacent_find(x);
+  if (twice == x.end()) return;
+  const char* const source = call.given("TABLE") ? "TABLE" : call.given("NAPPE") ? "NAPPE" : "RESULTAT";
+  const bool has_slopes = (function.left != solver::Extension::linear || x[0] < x[1]) &&
+                          (function.right != solver::Extension::linear || x[x.size() - 2] < x.back());
+  if (!has_slopes || call.given("NAPPE")) check_rising(call, source, x);
+  diagnostics.alarm(
+      "repeated-abscissa",
+      fmt::format("RECU_FONCTION: {} = {:g} stands several times: the function has the first of its values "
+                  "there, and steps to the last",
+                  function.parameter, *twice),
+      call.span_of(source), "choose rows by FILTRE where one value is meant");
 }
 
 }  // namespace
@@ -205,7 +218,6 @@ Product recu_fonction(const Call& call, Context& context) {
   }
   if (function.x.empty())
     throw DiagnosticError("wrong-count", "RECU_FONCTION: there is no point to make a function of", call.span);
-  sort_abscissas(call, function);
   if (call.has("NOM_PARA")) function.parameter = call.text("NOM_PARA");
   for (const char* name : {"NOM_RESU", "NOM_CMP", "NOM_VARI", "NOM_PARA_RESU", "PARA_Y"}) {
     if (!call.given(name)) continue;
@@ -215,6 +227,7 @@ Product recu_fonction(const Call& call, Context& context) {
     break;
   }
   read_shape(call, function);
+  sort_abscissas(call, function, context.diagnostics);
   return std::make_shared<TabulatedConcept>(std::move(function));
 }
 

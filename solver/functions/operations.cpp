@@ -206,6 +206,9 @@ TabulatedFunction derivative(const TabulatedFunction& function) {
   TabulatedFunction result = without_extensions(function);
   for (std::size_t i = 0; i <= last; ++i) {
     const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, last);
+    if (function.x[after] == function.x[before])
+      throw Error("out-of-function", fmt::format("the function {}({}) steps at {:g}: it has no derivative there",
+                                                 function.result, function.parameter, function.x[i]));
     result.y[i] = (function.y[after] - function.y[before]) / (function.x[after] - function.x[before]);
   }
   return result;
