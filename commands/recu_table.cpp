@@ -24,7 +24,7 @@ const ResultConcept& result_of(const Call& call) {
 Cell parameter_of(const solver::ResultStep& step, const std::string& name) {
   if (name == "INST") return step.instant;
   const auto found = step.parameters.find(name);
-  return found == step.parameters.end() ? Cell() : Cell(found->second);
+  return found == step.parameters.end() ? Cell() : parameter_cell(name, found->second);
 }
 
 void warn_of_unknown_parameters(const Call& call, const solver::Result& result, Context& context) {

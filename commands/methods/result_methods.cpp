@@ -60,7 +60,9 @@ std::shared_ptr<Dict> access_parameters(const ResultConcept& data) {
       if (lists->find(Value(name)) != nullptr) continue;
       lists->set(Value(name), of_steps(result, [&](const solver::ResultStep& step) {
                    const auto found = step.parameters.find(name);
-                   return found == step.parameters.end() ? Value() : Value(found->second);
+                   if (found == step.parameters.end()) return Value();
+                   return is_count(name) ? Value(static_cast<std::int64_t>(std::lround(found->second)))
+                                         : Value(found->second);
                  }));
     }
   return lists;

@@ -1,6 +1,7 @@
 #include "commands/tables/result_tables.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace comma::commands {
 
@@ -14,13 +15,19 @@ Table computation(const ResultConcept& data) {
         std::ranges::count_if(data.earlier, [&](const EarlierPhase& phase) { return phase.last_order < step.order; });
     std::vector<std::pair<std::string, Cell>> row = {
         {"NUME_ORDRE", std::int64_t{step.order}}, {"NUME_REUSE", std::int64_t{later}}, {"INST", step.instant}};
-    for (const auto& [name, value] : step.parameters) row.emplace_back(name, value);
+    for (const auto& [name, value] : step.parameters) row.emplace_back(name, parameter_cell(name, value));
     table.add_row(row);
   }
   return table;
 }
 
 }  // namespace
+
+bool is_count(std::string_view parameter) { return parameter == "ITER_GLOB"; }
+
+Cell parameter_cell(std::string_view parameter, double value) {
+  return is_count(parameter) ? Cell(static_cast<std::int64_t>(std::lround(value))) : Cell(value);
+}
 
 void StepTable::forget_after(int order) {
   ends.erase(ends.upper_bound(order), ends.end());

@@ -8,6 +8,11 @@
 
 namespace comma::commands {
 
+/// Whether a parameter of a step counts something: tables and lists have integers of it.
+bool is_count(std::string_view parameter);
+/// A parameter in a table.
+Cell parameter_cell(std::string_view parameter, double value);
+
 /// PARA_CALC: one row a step that was computed, with what the computation says of it; OBSERVATION where some was asked
 /// for. Nothing for another name.
 std::optional<Table> table_of_result(const ResultConcept& data, std::string_view name);
