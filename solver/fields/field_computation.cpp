@@ -106,6 +106,8 @@ const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputati
       {"EPSL_ELGA", &F::logarithmic_strains},
       {"EPSP_ELGA", &F::plastic_strains_at_points},
       {"EPVC_ELGA", &F::variable_strains},
+      {"EPFP_ELGA", &F::strains_of_creep},
+      {"EPFD_ELGA", &F::strains_of_creep},
       {"VARC_ELGA", &F::command_variables},
       {"SIEQ_ELGA", &F::stress_criteria_at_points},
       {"SIEQ_ELNO", &F::stress_criteria_at_nodes},
@@ -367,6 +369,8 @@ Field FieldComputation::mechanical_green_strains(std::size_t step) {
 }
 
 Field FieldComputation::variable_strains(std::size_t) { return variable_strain_field(input()); }
+
+Field FieldComputation::strains_of_creep(std::size_t step) { return creep_strains(input(), displacement(step)); }
 
 Field FieldComputation::command_variables(std::size_t) { return command_variable_field(input()); }
 

@@ -114,6 +114,7 @@ class FieldComputation {
   Field mechanical_green_strains(std::size_t step);
   Field logarithmic_strains(std::size_t step);
   Field variable_strains(std::size_t step);
+  Field strains_of_creep(std::size_t step);
   Field command_variables(std::size_t step);
   Field stress_criteria_at_points(std::size_t step);
   Field stress_criteria_at_nodes(std::size_t step);
