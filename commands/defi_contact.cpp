@@ -358,7 +358,20 @@ void set_geometry_update(const Call& call, solver::ContactDefinition& definition
   definition.restless_tolerance = std::max(tolerable, change);
 }
 
+// A normal that is given leaves nothing to be smoothed.
+void check_smoothing(const Call& call) {
+  if (call.text("LISSAGE") != "OUI") return;
+  for (const Keywords& zone : call.factors("ZONE"))
+    for (const char* keyword : {"VECT_MAIT"}) {
+      if (!zone.has(keyword) || zone.text(keyword) == "AUTO") continue;
+      throw DiagnosticError("contradictory-keywords",
+                            fmt::format("DEFI_CONTACT: LISSAGE='OUI' smooths normals, and {} gives them", keyword),
+                            zone.span_of(keyword), "leave out one of the two");
+    }
+}
+
 solver::ContactDefinition contact(const Call& call, const solver::Model& model) {
+  check_smoothing(call);
   const solver::Mesh& mesh = *model.mesh;
   solver::ContactDefinition definition;
   const bool is_mixed = call.text("FORMULATION") == "CONTINUE";

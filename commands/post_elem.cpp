@@ -76,20 +76,35 @@ double reference_energy(const Call& call, const char* keyword, const solver::Ele
   return solver::sum_over_cells(energies, 0, std::span<const int>(cells));
 }
 
+double percentage(double part, double whole) { return whole != 0.0 ? 100.0 * part / whole : 100.0; }
+
+void warn_of_potential_energy(const Call& call, interpreter::Diagnostics& diagnostics) {
+  diagnostics.alarm("linear-energy",
+                    "POST_ELEM: ENER_POT is the energy that DEPL would have in linear elasticity and small strains, "
+                    "which is not what the body has stored",
+                    call.span_of("ENER_POT"),
+                    "ENER_ELAS is the elastic energy of its stresses, ENER_TOTALE their work");
+}
+
 // Totals over parts: with what elastic energy is made of, potential energy with its percentage.
 void list_energies(Table& table, const Call& call, interpreter::Diagnostics& diagnostics, const char* keyword,
                    const char* field) {
   const ResultConcept source = energy_source(call);
   FieldsOfSteps computation(call, source);
   if (call.has("RESULTAT")) computation.warn_of_other_materials(diagnostics);
+  const bool is_elastic = std::string_view(keyword) == "ENER_ELAS";
+  const bool is_potential = std::string_view(keyword) == "ENER_POT";
+  bool is_told = false;
   for (const solver::ResultStep* chosen : selected_steps(call, source.result)) {
     const auto index = static_cast<std::size_t>(chosen - source.result.steps.data());
     const auto energies = std::get<solver::ElementField>(computation.compute(field, index));
-    const bool is_elastic = std::string_view(keyword) == "ENER_ELAS";
-    const bool is_potential = std::string_view(keyword) == "ENER_POT";
+    if (is_potential && !is_told && !computation.stores_potential_energy(index)) {
+      warn_of_potential_energy(call, diagnostics);
+      is_told = true;
+    }
+    const bool is_stored = chosen->fields.contains("EPOT_ELEM");
     const double whole =
-        is_potential ? reference_energy(call, keyword, energies, chosen->fields.contains(field), source.result.mesh())
-                     : 0.0;
+        is_potential ? reference_energy(call, keyword, energies, is_stored, source.result.mesh()) : 0.0;
     for (const Keywords& occurrence : call.factors(keyword)) {
       for (const Part& part : is_elastic ? parts_and_union(call, occurrence, source.result.mesh())
                                          : parts_of(call, occurrence, source.result.mesh())) {
@@ -103,7 +118,7 @@ void list_energies(Table& table, const Call& call, interpreter::Diagnostics& dia
         if (is_elastic)
           add_parts(row, energies, part.cells);
         else if (is_potential)
-          row.emplace_back("POUR_CENT", whole != 0.0 ? 100.0 * total / whole : 0.0);
+          row.emplace_back("POUR_CENT", percentage(total, whole));
         table.add_row(row);
       }
     }
@@ -444,7 +459,7 @@ Product post_elem(const Call& call, Context& context) {
   Table& table = product->table;
   warn_of_missing_instants("POST_ELEM", call, context.diagnostics);
   if (call.has("ENER_ELAS")) list_energies(table, call, context.diagnostics, "ENER_ELAS", "ENEL_ELEM");
-  if (call.has("ENER_POT")) list_energies(table, call, context.diagnostics, "ENER_POT", "EPOT_ELEM");
+  if (call.has("ENER_POT")) list_energies(table, call, context.diagnostics, "ENER_POT", "ENER_POT");
   if (call.has("ENER_TOTALE")) list_energies(table, call, context.diagnostics, "ENER_TOTALE", "ENER_TOTALE");
   for (const char* keyword : {"INDIC_SEUIL", "INDIC_ENER"})
     if (call.has(keyword)) list_indicators(table, call, context.diagnostics, keyword);

@@ -38,6 +38,24 @@ void require_initial_places(const Keywords& excitation, const solver::Load& load
                         "let it follow the body in STAT_NON_LINE (TYPE_CHARGE='SUIV'), or let it depend on X, Y, Z");
 }
 
+bool is_on_face(const solver::DistributedForce& force, const solver::Model& model) {
+  return model.is_skin(force.cell) && solver::dimension(model.mesh->cell_types[force.cell]) == 2;
+}
+
+// Forces on faces of solids act on the deformed area. Those on nodes have nothing to follow, and of others
+// Code_Aster 17.3 knows no such thing.
+void require_no_dead_forces(const Keywords& excitation, const solver::Load& load, const solver::Model& model) {
+  const auto is_other = [&](const solver::DistributedForce& force) { return !is_on_face(force, model); };
+  const bool on_nodes = !load.nodal_forces.empty();
+  if (!on_nodes && std::ranges::none_of(load.distributed_forces, is_other)) return;
+  throw DiagnosticError(
+      "unsupported",
+      fmt::format("{} has forces on {}, which do not follow the body", excitation.concept_of("CHARGE")->name,
+                  on_nodes ? "nodes (FORCE_NODALE)" : "edges, volumes or plates (FORCE_CONTOUR, FORCE_INTERNE ...)"),
+      excitation.span_of("TYPE_CHARGE"),
+      "make them a load of their own, without TYPE_CHARGE='SUIV', or give a pressure (PRES_REP)");
+}
+
 // What grows with the distance from an axis or has axes that turn with the body is another force on the deformed body.
 void require_no_others_that_follow(const Keywords& excitation, const solver::Load& load) {
   const bool turn =
@@ -53,8 +71,8 @@ void require_no_others_that_follow(const Keywords& excitation, const solver::Loa
       excitation.span_of("CHARGE"), "leave out TYPE_CHARGE='SUIV' where displacements are small");
 }
 
-// TYPE_CHARGE='SUIV': pressures follow, and rigid bodies turn; dead forces, displacements of single nodes and other
-// relations, as they were written, are the same on any geometry.
+// TYPE_CHARGE='SUIV': pressures and forces on faces follow, and rigid bodies turn; weight, displacements of single
+// nodes and other relations, as they were written, are the same on any geometry.
 void add_following(const Keywords& excitation, const solver::AppliedLoad& applied, solver::StaticProblem& problem) {
   const solver::Load& load = *applied.load;
   const auto moves_apart = [](const solver::LinearRelation& relation) {
@@ -67,14 +85,18 @@ void add_following(const Keywords& excitation, const solver::AppliedLoad& applie
                               "follow a body",
                           excitation.span_of("CHARGE"), "make them a load of their own, without TYPE_CHARGE='SUIV'");
   }
+  if (problem.model) require_no_dead_forces(excitation, load, *problem.model);
   require_no_others_that_follow(excitation, load);
   auto following = std::make_shared<solver::Load>();
   following->pressures = load.pressures;
+  following->distributed_forces = load.distributed_forces;
   auto dead = std::make_shared<solver::Load>(load);
   dead->pressures.clear();
+  dead->distributed_forces.clear();
   std::erase_if(dead->relations, [](const solver::LinearRelation& relation) { return relation.rigid_link >= 0; });
   problem.turning_links.insert(problem.turning_links.end(), load.rigid_links.begin(), load.rigid_links.end());
-  if (!following->pressures.empty()) problem.followers.push_back({std::move(following), applied.multiplier});
+  if (!following->pressures.empty() || !following->distributed_forces.empty())
+    problem.followers.push_back({std::move(following), applied.multiplier});
   problem.loads.push_back({std::move(dead), applied.multiplier});
 }
 

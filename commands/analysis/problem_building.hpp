@@ -56,6 +56,7 @@ class FieldsOfSteps {
   const solver::StaticProblem& problem() const { return phases_.back().problem; }
   /// See FieldComputation.
   solver::Field compute(std::string_view name, std::size_t step, std::optional<std::span<const int>> cells = {});
+  bool stores_potential_energy(std::size_t step) { return computation_of(step).stores_potential_energy(step); }
   /// Where CHAM_MATER or CARA_ELEM are not those that the result was computed with.
   void warn_of_other_materials(interpreter::Diagnostics& diagnostics) const;
   /// For the fields of the result that have been used since.

@@ -71,6 +71,8 @@ Eigen::Matrix<double, static_cast<int>(N), 1> values_at(const std::array<double,
   return result;
 }
 
+}  // namespace
+
 void check_distributed_force(const Model& model, const DistributedForce& load) {
   const Mesh& mesh = *model.mesh;
   const int body = continuum_dimension(model.formulations[load.cell]);
@@ -88,6 +90,17 @@ void check_distributed_force(const Model& model, const DistributedForce& load) {
                             axis_names[c], mesh.cell_name(load.cell)));
   }
 }
+
+Eigen::Vector3d distributed_force_at(const DistributedForce& load, const Mesh& mesh, const CellSample& sample,
+                                     const Point& at, double time) {
+  Eigen::Vector3d density = values_at(load.force, load.functions, at, time);
+  for (int c = 0; c < 3; ++c)
+    if (const NodalFunction& function = load.functions_at_nodes[static_cast<std::size_t>(c)])
+      density[c] = interpolated(function, mesh.cell(load.cell), sample, time);
+  return density;
+}
+
+namespace {
 
 /// Sums forces over edges, faces and volumes.
 class CellIntegrator {
@@ -116,11 +129,8 @@ class CellIntegrator {
     const bool on_surface = input_.model.is_skin(load.cell) || is_plate(formulation);
     const auto& samples = on_surface ? of_skin(load.cell) : samples_.of_stiffness(type, formulation);
     integrate(load.cell, samples, [&](const CellPoint& point, const CellSample& sample) -> Eigen::Vector3d {
-      Eigen::Vector3d density = values_at(load.force, load.functions, to_point(point.at), time_);
-      for (int c = 0; c < 3; ++c)
-        if (const NodalFunction& function = load.functions_at_nodes[static_cast<std::size_t>(c)])
-          density[c] = interpolated(function, mesh_.cell(load.cell), sample, time_);
-      return factor * point.measure(cell_dimension) * density;
+      return factor * point.measure(cell_dimension) *
+             distributed_force_at(load, mesh_, sample, to_point(point.at), time_);
     });
   }
 

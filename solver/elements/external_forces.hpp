@@ -28,6 +28,14 @@ void check_pressure(const Model& model, const PressureLoad& load);
 /// functions are given.
 double pressure_at(const PressureLoad& load, const Mesh& mesh, const CellSample& sample, const Point& at, double time);
 
+/// Throws Error `unsupported` for a distributed force on a cell that is no part of a continuum or plate, `unknown-dof`
+/// for one along a direction that its nodes do not have.
+void check_distributed_force(const Model& model, const DistributedForce& load);
+
+/// The force of a load (without its multiplier) for a unit of measure, at a sample of its cell, as pressure_at().
+Eigen::Vector3d distributed_force_at(const DistributedForce& load, const Mesh& mesh, const CellSample& sample,
+                                     const Point& at, double time);
+
 /// Adds the forces of the loads at a time to `forces` (one a degree of freedom), on the initial geometry: nodal forces,
 /// pressures, distributed forces, forces on beams, gravity and rotation. Initial strains act inside elements: see
 /// imposed_strains.hpp.

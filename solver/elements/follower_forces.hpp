@@ -1,4 +1,4 @@
-// Loads that follow the body: pressures on its deformed boundary (TYPE_CHARGE='SUIV', U4.51.03).
+// Loads that follow the body: pressures and forces on its deformed boundary (TYPE_CHARGE='SUIV', U4.51.03).
 #pragma once
 
 #include <span>
@@ -16,11 +16,12 @@ namespace comma::solver {
 /// Pressure p and shear q act as the traction -p n + q t on the boundary as it lies at the displacements u, whose
 /// normal n, tangent t and measure they take (Bonet, Wood, "Nonlinear continuum mechanics for finite element analysis",
 /// section 8.5). Functions take the initial place, or the deformed one where they are of that kind
-/// (deformed_place.hpp). Axisymmetric loads are per radian of the deformed radius.
+/// (deformed_place.hpp). A distributed force keeps its direction and acts on the measure of the moved boundary; its
+/// functions take the initial place. Axisymmetric loads are per radian of the deformed radius.
 class FollowerForces {
  public:
-  /// Keeps references to its arguments. Of the loads the pressures alone count. Throws what check_pressure() throws
-  /// (external_forces.hpp).
+  /// Keeps references to its arguments. Of the loads pressures and distributed forces on skin cells alone count. Throws
+  /// what check_pressure() and check_distributed_force() throw (external_forces.hpp).
   FollowerForces(const Model& model, const DofMap& dofs, std::span<const AppliedLoad> loads);
 
   bool empty() const { return loads_.empty(); }
@@ -35,9 +36,12 @@ class FollowerForces {
 
  private:
   struct Traction;
+  struct SkinLoad;
   template <class Visit>
   void each_point(const Eigen::VectorXd& u, Visit&& visit) const;
-  Traction traction(const PressureLoad& load, const CellSample& sample, double factor, const CellPoint& initial,
+  template <class Visit>
+  void each_point_of(const SkinLoad& load, const Eigen::VectorXd& u, Visit&& visit) const;
+  Traction traction(const SkinLoad& load, const CellSample& sample, const CellPoint& initial,
                     const CellPoint& now) const;
   Eigen::Vector3d pressure_gradient(const PressureLoad& load, double factor, const CellPoint& now) const;
 

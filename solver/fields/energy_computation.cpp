@@ -115,17 +115,55 @@ Field FieldComputation::potential_energy_of_cells(std::size_t step) {
     throw Error("unsupported",
                 "the potential energy of a material with a memory does not follow from its displacements",
                 "take the elastic energy (ENEL_ELEM, ENER_ELAS), from the stresses");
-  Assembler elastic(*problem_.model, *problem_.materials, *problem_.properties, dofs_, &laws);
-  elastic.set_time(result_.steps[step].instant);
-  elastic.impose_strains(problem_.loads, result_.steps[step].instant);
-  const ElementField of_displacements = elastic.stresses(u, problem_.loads, result_.steps[step].instant);
-  if (const auto cell = cell_of_other_values(of_displacements, whole_field("SIEF_ELGA", step)))
+  const std::unique_ptr<Assembler> elastic = assembler_of(&laws, step);
+  if (const auto cell = cell_of_other_stresses(*elastic, step))
     throw Error("unsupported",
                 fmt::format("the potential energy is not known where a computation began with stresses that are not "
                             "those of its displacements, as on cell {}",
                             problem_.model->mesh->cell_name(*cell)),
                 "take the elastic energy (ENEL_ELEM, ENER_ELAS), from the stresses");
-  return elastic.elastic_energies(u);
+  return elastic->elastic_energies(u);
+}
+
+std::unique_ptr<Assembler> FieldComputation::assembler_of(const BehaviourOfCells* laws, std::size_t step) const {
+  auto elastic = std::make_unique<Assembler>(*problem_.model, *problem_.materials, *problem_.properties, dofs_, laws);
+  elastic->set_time(result_.steps[step].instant);
+  elastic->impose_strains(problem_.loads, result_.steps[step].instant);
+  return elastic;
+}
+
+std::optional<int> FieldComputation::cell_of_other_stresses(const Assembler& elastic, std::size_t step) {
+  const ElementField of_displacements =
+      elastic.stresses(to_dofs(displacement(step), dofs_), problem_.loads, result_.steps[step].instant);
+  return cell_of_other_values(of_displacements, whole_field("SIEF_ELGA", step));
+}
+
+// Elasticity in small strains, whatever the law is: what Code_Aster 17.3 calls potential in every result.
+Field FieldComputation::energy_of_displacements(std::size_t step) {
+  if (has_beams_that_turn())
+    throw Error("unsupported", "the potential energy of beams that turn (GROT_GDEP) is not known",
+                "name the other cells by GROUP_MA");
+  const Eigen::VectorXd u = to_dofs(displacement(step), dofs_);
+  return departs_from_linear() ? assembler_of(nullptr, step)->elastic_energies(u) : assembler_.elastic_energies(u);
+}
+
+bool FieldComputation::departs_from_linear() const {
+  return problem_.behaviours && std::ranges::any_of(*problem_.behaviours, [](const CellBehaviour& law) {
+           return has_memory(law) || law.kinematics != Kinematics::small;
+         });
+}
+
+bool FieldComputation::stores_potential_energy(std::size_t step) {
+  move_to(step);
+  const ElementField* stresses = remembered_stresses(step);
+  if (!departs_from_linear())
+    return stresses == nullptr || !assembler_.has_initial_stresses(to_dofs(displacement(step), dofs_), *stresses);
+  const auto is_linear = [](CellBehaviour law) {
+    law.from_initial_state = false;
+    return !has_memory(law) && law.kinematics == Kinematics::small;
+  };
+  return std::ranges::all_of(*problem_.behaviours, is_linear) &&
+         !cell_of_other_stresses(*assembler_of(nullptr, step), step);
 }
 
 // What adds up from step to step is computed from the first one on: step by step backwards the calls would nest as deep

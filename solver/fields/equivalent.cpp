@@ -66,14 +66,16 @@ void write_strain(const Eigen::Matrix3d& strain, double* target) {
   write_directions(axes, target);
 }
 
-/// Applies `write` to every tensor of a field with `width` components a place; NaN where there is no tensor.
+/// Applies `write` to every tensor of a field with `width` components a place; NaN where there is no tensor. Of a bar
+/// the strain along itself is one.
 template <class AnyField, class Write>
 AnyField map_tensors(const AnyField& field, std::span<const std::string_view> names, std::vector<std::string> results,
                      Write&& write) {
   std::array<int, 6> columns;
   for (int i = 0; i < 6; ++i) columns[i] = field.component(names[i]);
   const bool has_tensors = columns[0] >= 0 && columns[1] >= 0 && columns[2] >= 0 && columns[3] >= 0;
-  if (!has_tensors && !field.values.empty()) {
+  const bool of_bars = columns[0] >= 0 && field.components.size() == 1;
+  if (!has_tensors && !of_bars && !field.values.empty()) {
     throw Error("incompatible-field",
                 fmt::format("the field has no components {} {} {} {}", names[0], names[1], names[2], names[3]));
   }
@@ -85,8 +87,7 @@ AnyField map_tensors(const AnyField& field, std::span<const std::string_view> na
   result.values.assign(places * new_width, absent);
   for (std::size_t place = 0; place < places; ++place) {
     const double* value = field.values.data() + place * width;
-    // A strain along a bar alone is no tensor.
-    if (std::isnan(value[columns[0]]) || std::isnan(value[columns[1]])) continue;
+    if (std::isnan(value[columns[0]])) continue;
     const auto entry = [&](int i) { return columns[i] < 0 || std::isnan(value[columns[i]]) ? 0.0 : value[columns[i]]; };
     Eigen::Matrix3d tensor;
     tensor << entry(0), entry(3), entry(4), entry(3), entry(1), entry(5), entry(4), entry(5), entry(2);

@@ -26,7 +26,7 @@ ElementField equivalent_stresses(const ElementField& stresses);
 NodalField equivalent_stresses(const NodalField& stresses);
 
 /// INVA_2 = sqrt(2/3 e:e) with the deviator e, PRIN_1 ... PRIN_3, INVA_2SG (with the sign of the trace), VECT_1_X ...
-/// VECT_3_Z. Takes EPXX EPYY EPZZ EPXY (EPXZ EPYZ), tensor components.
+/// VECT_3_Z. Takes EPXX EPYY EPZZ EPXY (EPXZ EPYZ), tensor components, or EPXX alone (of bars, in their own axes).
 ElementField equivalent_strains(const ElementField& strains);
 NodalField equivalent_strains(const NodalField& strains);
 

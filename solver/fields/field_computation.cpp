@@ -50,7 +50,7 @@ constexpr std::array plate_fields = {
     "EFGE_ELGA"sv,   "EFGE_ELNO"sv, "EFGE_NOEU"sv, "DEGE_ELGA"sv, "DEGE_ELNO"sv, "DEGE_NOEU"sv, "SIEF_ELGA"sv,
     "SIEF_ELNO"sv,   "SIEF_NOEU"sv, "SIGM_ELGA"sv, "SIGM_ELNO"sv, "SIGM_NOEU"sv, "SIEQ_ELGA"sv, "SIEQ_ELNO"sv,
     "SIEQ_NOEU"sv,   "EPSI_ELGA"sv, "EPSI_ELNO"sv, "EPSI_NOEU"sv, "EPEQ_ELGA"sv, "EPEQ_ELNO"sv, "EPEQ_NOEU"sv,
-    "ENER_TOTALE"sv, "ETOT_ELEM"sv, "EPOT_ELEM"sv, "ENEL_ELEM"sv, "FORC_NODA"sv, "REAC_NODA"sv};
+    "ENER_TOTALE"sv, "ETOT_ELEM"sv, "EPOT_ELEM"sv, "ENEL_ELEM"sv, "FORC_NODA"sv, "REAC_NODA"sv, "ENER_POT"sv};
 
 std::vector<int> all_cells(const Model& model) {
   std::vector<int> cells(static_cast<std::size_t>(model.mesh->cell_count()));
@@ -106,6 +106,8 @@ const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputati
       {"EPSL_ELGA", &F::logarithmic_strains},
       {"EPSP_ELGA", &F::plastic_strains_at_points},
       {"EPVC_ELGA", &F::variable_strains},
+      {"EPFP_ELGA", &F::strains_of_creep},
+      {"EPFD_ELGA", &F::strains_of_creep},
       {"VARC_ELGA", &F::command_variables},
       {"SIEQ_ELGA", &F::stress_criteria_at_points},
       {"SIEQ_ELNO", &F::stress_criteria_at_nodes},
@@ -115,6 +117,7 @@ const std::map<std::string, FieldComputation::Rule, std::less<>>& FieldComputati
       {"ETOT_ELGA", &F::total_energy},
       {"ETOT_ELEM", &F::total_energy_of_cells},
       {"ENER_TOTALE", &F::energy_of_state},
+      {"ENER_POT", &F::energy_of_displacements},
       {"VARI_ELGA", &F::internal_variables},
       {"DERA_ELGA", &F::unloading},
       {"INDIC_SEUIL_ELGA", &F::yield_of_loading},
@@ -367,6 +370,8 @@ Field FieldComputation::mechanical_green_strains(std::size_t step) {
 }
 
 Field FieldComputation::variable_strains(std::size_t) { return variable_strain_field(input()); }
+
+Field FieldComputation::strains_of_creep(std::size_t step) { return creep_strains(input(), displacement(step)); }
 
 Field FieldComputation::command_variables(std::size_t) { return command_variable_field(input()); }
 

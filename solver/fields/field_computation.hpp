@@ -28,12 +28,12 @@ struct OtherPhases {
 };
 
 /// Computes fields by their names: stresses SIEF, SIGM, EFGE, SIPO, SIPM, SIRO; strains EPSI, EPME, EPSG, EPMG, EPSL,
-/// EPSP, EPVC, DEGE; criteria SIEQ, EPEQ, EPMQ, EPGQ; DERA, which compares a step with the next one (absent at the
-/// last); INDIC_SEUIL, INDIC_ENER (X1, see loading_indicators.hpp); command variables VARC; energies ENEL, ETOT, EPOT;
-/// forces FORC_NODA, REAC_NODA. _ELGA is at Gauss points, _ELNO at the nodes of each cell (by local smoothing, see
-/// extrapolation.hpp; SIEF, SIGM, SIEQ, EPSI and EPEQ of plates at places in their thickness, see plate_stresses.hpp),
-/// _NOEU at nodes (the mean over the cells around each), _ELEM on the whole cell. A field that the step holds already
-/// is taken as it is where another needs it.
+/// EPSP, EPVC, EPFP, EPFD, DEGE; criteria SIEQ, EPEQ, EPMQ, EPGQ; DERA, which compares a step with the next one (absent
+/// at the last); INDIC_SEUIL, INDIC_ENER (X1, see loading_indicators.hpp); command variables VARC; energies ENEL, ETOT,
+/// EPOT and what POST_ELEM calls ENER_TOTALE and ENER_POT; forces FORC_NODA, REAC_NODA. _ELGA is at Gauss points, _ELNO
+/// at the nodes of each cell (by local smoothing, see extrapolation.hpp; SIEF, SIGM, SIEQ, EPSI and EPEQ of plates at
+/// places in their thickness, see plate_stresses.hpp), _NOEU at nodes (the mean over the cells around each), _ELEM on
+/// the whole cell. A field that the step holds already is taken as it is where another needs it.
 ///
 /// Keeps references to its arguments.
 class FieldComputation {
@@ -60,6 +60,10 @@ class FieldComputation {
   const Field& whole(const std::string& name, std::size_t step);
   /// One that the step need not hold.
   const Field& computed(const std::string& name, std::size_t step);
+
+  /// Whether ENER_POT, the energy that the displacements of a step would have in linear elasticity and small strains,
+  /// is what the body has stored.
+  bool stores_potential_energy(std::size_t step);
 
   /// The fields of the steps that have been taken as they are and lie on some cells only: what was computed from them
   /// lacks the rest.
@@ -114,6 +118,7 @@ class FieldComputation {
   Field mechanical_green_strains(std::size_t step);
   Field logarithmic_strains(std::size_t step);
   Field variable_strains(std::size_t step);
+  Field strains_of_creep(std::size_t step);
   Field command_variables(std::size_t step);
   Field stress_criteria_at_points(std::size_t step);
   Field stress_criteria_at_nodes(std::size_t step);
@@ -124,6 +129,12 @@ class FieldComputation {
   Field elastic_energy(std::size_t step);
   Field elastic_energy_of_cells(std::size_t step);
   Field potential_energy_of_cells(std::size_t step);
+  Field energy_of_displacements(std::size_t step);
+  /// An assembler of these laws (null: linear elasticity in small strains) at the instant of the step.
+  std::unique_ptr<Assembler> assembler_of(const BehaviourOfCells* laws, std::size_t step) const;
+  /// Where the stresses of the step are not what the displacements give with these laws.
+  std::optional<int> cell_of_other_stresses(const Assembler& elastic, std::size_t step);
+  bool departs_from_linear() const;
   void know_earlier(const std::string& name, std::size_t step);
   Field total_energy(std::size_t step);
   Field total_energy_of_cells(std::size_t step);

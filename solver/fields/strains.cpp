@@ -8,6 +8,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "solver/error.hpp"
+#include "solver/fields/beam_stresses.hpp"
 #include "solver/model/stress_names.hpp"
 
 namespace comma::solver {
@@ -132,14 +133,16 @@ double bar_strain(const FieldInput& input, int cell, const DisplacementGradients
 ElementField strains(const FieldInput& input, const NodalField& displacement, StrainKind kind) {
   const Mesh& mesh = *input.model.mesh;
   ContinuumPoints points(input.model);
-  bool solid = false;
+  bool solid = false, only_bars = false;
   ElementField field{"EPSI_R", Support::gauss_point, {"EPXX", "EPYY", "EPZZ", "EPXY"}, {0}, {}};
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     const int own = is_bar(input.model.formulations[cell]) ? 1 : 0;
     const int count = points.covers(cell) ? static_cast<int>(points.samples(cell).size()) : own;
     solid = solid || (count > 0 && dimension(mesh.cell_types[cell]) == 3);
+    if (count > 0) only_bars = own > 0 && (only_bars || field.starts.back() == 0);
     field.starts.push_back(field.starts.back() + count);
   }
+  if (only_bars) field.components.resize(1);
   if (solid) field.components.insert(field.components.end(), {"EPXZ", "EPYZ"});
   const std::size_t width = field.components.size();
   field.values.assign(static_cast<std::size_t>(field.starts.back()) * width, absent);
@@ -180,20 +183,34 @@ std::optional<int> inverted_cell(const Model& model, const BehaviourOfCells& beh
   return std::nullopt;
 }
 
+namespace {
+
+/// Takes N / (E A) away from the mechanical strains of bars.
+void take_elongations_by_forces(const FieldInput& input, const ElementField& stresses, ElementField& field) {
+  const auto& formulations = input.model.formulations;
+  if (std::ranges::none_of(formulations, [](Formulation each) { return is_bar(each); })) return;
+  const ElementField by_forces = generalised_strains(input, stresses);
+  for (int cell = 0; cell < input.model.mesh->cell_count(); ++cell) {
+    if (!is_bar(formulations[static_cast<std::size_t>(cell)]) || field.points(cell) == 0) continue;
+    const auto& material = std::get<IsotropicElasticity>(*material_of(input, cell).elasticity);
+    double& strain = field.values[static_cast<std::size_t>(field.starts[cell]) * field.components.size()];
+    // What forces elongate has the strain of the command variables in it.
+    const double of_variables = inelastic_axial_strain(material, middle_point(input, cell));
+    strain -= by_forces.points(cell) > 0 ? by_forces.at(cell, 0, 0) - of_variables : absent;
+  }
+}
+
+}  // namespace
+
 ElementField plastic_strains(const FieldInput& input, const NodalField& displacement, const ElementField& stresses) {
   ElementField field = strains(input, displacement, StrainKind::mechanical);
+  take_elongations_by_forces(input, stresses, field);
   ContinuumPoints points(input.model);
   std::array<int, 6> columns;
   for (int i = 0; i < 6; ++i) columns[i] = stresses.component(solid_stress_names[i]);
   const std::size_t width = field.components.size();
   for (int cell = 0; cell < input.model.mesh->cell_count(); ++cell) {
-    if (!points.covers(cell)) {
-      std::fill(
-          field.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(field.starts[cell]) * width),
-          field.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(field.starts[cell + 1]) * width),
-          absent);
-      continue;
-    }
+    if (!points.covers(cell)) continue;
     const auto& samples = points.samples(cell);
     for (std::size_t g = 0; g < samples.size(); ++g) {
       const int point = static_cast<int>(g);
@@ -206,6 +223,18 @@ ElementField plastic_strains(const FieldInput& input, const NodalField& displace
       for (int i = 0; i < own; ++i) target[i] -= i < 3 ? elastic[i] : 0.5 * elastic[i];
       if (is_plane_stress(input.model.formulations[cell])) target[2] = -target[0] - target[1];
     }
+  }
+  return field;
+}
+
+ElementField creep_strains(const FieldInput& input, const NodalField& displacement) {
+  ElementField field = strains(input, displacement, StrainKind::total);
+  const std::size_t width = field.components.size();
+  for (int cell = 0; cell < input.model.mesh->cell_count(); ++cell) {
+    const bool creeps = !is_bar(input.model.formulations[static_cast<std::size_t>(cell)]);
+    for (auto k = static_cast<std::size_t>(field.starts[cell]) * width;
+         k < static_cast<std::size_t>(field.starts[cell + 1]) * width; ++k)
+      field.values[k] = creeps && !std::isnan(field.values[k]) ? 0.0 : absent;
   }
   return field;
 }

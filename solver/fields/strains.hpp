@@ -18,14 +18,18 @@ enum class StrainKind : std::uint8_t {
 };
 
 /// Strains at the Gauss points of the stresses: EPXX EPYY EPZZ EPXY, with EPXZ EPYZ where the model has solids; tensor
-/// components (half the shear angles). Bars have EPXX, along themselves. In plane stress EPZZ is that of the elastic
+/// components (half the shear angles). Bars have EPXX, along themselves, and a model of bars alone no other. In plane
+/// stress EPZZ is that of the elastic
 /// law without stress across the plane. Throws Error `incompatible-field` where a node of a continuum or bar has no
 /// displacement.
 ElementField strains(const FieldInput& input, const NodalField& displacement, StrainKind kind);
 
 /// EPSP: what is left of the mechanical strain of a displacement when the elastic strain of the stresses (SIEF_ELGA) is
-/// taken away, in small strains; components as above. In plane stress EPZZ keeps the volume. Bars have none.
+/// taken away, in small strains; components as above. In plane stress EPZZ keeps the volume.
 ElementField plastic_strains(const FieldInput& input, const NodalField& displacement, const ElementField& stresses);
+
+/// EPFP, EPFD: strains of creep, which no law here has; components as above, bars have none.
+ElementField creep_strains(const FieldInput& input, const NodalField& displacement);
 
 /// A cell of a continuum, elastic in GREEN_LAGRANGE, that these displacements turn inside out at a Gauss point: the law
 /// has stresses for that, and a body has not. Empty where there is none. Throws as strains() does.

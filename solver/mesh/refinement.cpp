@@ -1,6 +1,8 @@
 #include "solver/mesh/refinement.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <vector>
@@ -10,6 +12,7 @@
 #include "solver/error.hpp"
 #include "solver/mesh/new_names.hpp"
 #include "solver/mesh/place.hpp"
+#include "solver/mesh/reference_element.hpp"
 
 namespace comma::solver {
 
@@ -92,47 +95,132 @@ const std::map<CellType, Cut>& cuts() {
   return table;
 }
 
+CellType of_corners(CellType type) {
+  using enum CellType;
+  constexpr std::array linear = {poi1, seg2, tria3, quad4, tetra4, penta6, hexa8};
+  const auto is_alike = [&](CellType each) {
+    return dimension(each) == dimension(type) && corner_count(each) == corner_count(type);
+  };
+  const auto* found = std::ranges::find_if(linear, is_alike);
+  return found == linear.end() ? type : *found;
+}
+
 const Cut& cut_of(const Mesh& mesh, int cell) {
-  const auto found = cuts().find(mesh.cell_types[cell]);
+  const auto found = cuts().find(of_corners(mesh.cell_types[cell]));
   if (found != cuts().end()) return found->second;
   throw Error("unsupported",
               fmt::format("cell {} is a {}, which is not cut into smaller ones", mesh.cell_name(cell),
                           name_of(mesh.cell_types[cell])),
-              "refine linear cells, and give them their further nodes afterwards (LINE_QUAD)");
+              "cut a mesh without pyramids");
 }
 
-/// Adds the new nodes, those of lines first; middles of the same corners are one node.
-class Middles {
- public:
-  explicit Middles(Mesh& mesh) : mesh_(mesh), names_(mesh.node_names, "NS") {}
+/// Where the nodes of the pieces of a cell lie in its reference cell.
+std::vector<ReferencePoint> reference_corners(CellType type, const Cut& cut) {
+  const auto own = reference_nodes(type).first(static_cast<std::size_t>(corner_count(type)));
+  std::vector<ReferencePoint> points(own.begin(), own.end());
+  for (const Corners& around : cut.middles) {
+    ReferencePoint& middle = points.emplace_back(ReferencePoint{});
+    for (const int corner : around)
+      for (std::size_t j = 0; j < 3; ++j)
+        middle[j] += own[static_cast<std::size_t>(corner)][j] / static_cast<double>(around.size());
+  }
+  return points;
+}
 
-  /// The corners of a cell and its new nodes, as pieces number them.
-  std::vector<int> nodes_of(std::span<const int> corners, const Cut& cut) {
-    std::vector<int> nodes(corners.begin(), corners.end());
-    for (const Corners& local : cut.middles) {
-      Corners around;
-      for (const int a : local) around.push_back(corners[static_cast<std::size_t>(a)]);
-      nodes.push_back(middle(std::move(around)));
-    }
-    return nodes;
+Eigen::Vector3d place_in(const Mesh& mesh, CellType type, std::span<const int> nodes, const ReferencePoint& point) {
+  const Eigen::VectorXd values = shape_functions(type, point);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (std::size_t k = 0; k < nodes.size(); ++k) sum += values[static_cast<Eigen::Index>(k)] * place(mesh, nodes[k]);
+  return sum;
+}
+
+/// The nodes of a mesh by the shares that corners of cells have in them (in 192 parts: 4^3 of a hexahedron's piece, and
+/// thirds), which are the same seen from each of the cells that have the node in common.
+class NodesWithin {
+ public:
+  explicit NodesWithin(Mesh& mesh) : mesh_(mesh), names_(mesh.node_names, "NS") {}
+
+  using Shares = std::vector<std::pair<int, int>>;
+  static Shares shares(CellType type, std::span<const int> nodes, const ReferencePoint& point) {
+    constexpr double whole = 192.0;
+    const Eigen::VectorXd values = shape_functions(of_corners(type), point);
+    Shares result;
+    for (int corner = 0; corner < corner_count(type); ++corner)
+      if (const auto share = static_cast<int>(std::lround(whole * values[corner])); share != 0)
+        result.emplace_back(nodes[static_cast<std::size_t>(corner)], share);
+    std::ranges::sort(result);
+    return result;
   }
 
- private:
-  int middle(Corners around) {
-    std::ranges::sort(around);
-    const auto [found, is_new] = known_.try_emplace(around, mesh_.node_count());
+  void know(CellType type, std::span<const int> nodes) {
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      known_.try_emplace(shares(type, nodes, reference_nodes(type)[k]), nodes[k]);
+  }
+
+  /// `place` is called where the node is new.
+  template <class Place>
+  int at(Shares shares, Place&& place) {
+    const auto [found, is_new] = known_.try_emplace(std::move(shares), mesh_.node_count());
     if (!is_new) return found->second;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const int node : around) sum += place(mesh_, node);
-    mesh_.nodes.push_back(to_point(sum / static_cast<double>(around.size())));
+    mesh_.nodes.push_back(to_point(place()));
     names_.add();
     return found->second;
   }
 
+  const Mesh& mesh() const { return mesh_; }
+
+ private:
   Mesh& mesh_;
   NewNames names_;
-  std::map<Corners, int> known_;
+  std::map<Shares, int> known_;
 };
+
+std::vector<int> corners_of_pieces(const Mesh& mesh, int cell, NodesWithin& nodes) {
+  const CellType type = mesh.cell_types[cell];
+  std::vector<int> corners;
+  for (const ReferencePoint& point : reference_corners(type, cut_of(mesh, cell)))
+    corners.push_back(nodes.at(NodesWithin::shares(type, mesh.cell(cell), point),
+                               [&] { return place_in(mesh, type, mesh.cell(cell), point); }));
+  return corners;
+}
+
+/// A node of a piece beyond its corners; `local` and `own` are the numbers of these in the cell that is cut and in the
+/// mesh. Edges and faces of pieces inside a solid are straight, as in Code_Aster 17.3.
+int further_node(const Mesh& mesh, int cell, std::span<const int> local, std::span<const int> own,
+                 const ReferencePoint& further, NodesWithin& nodes) {
+  const CellType type = mesh.cell_types[cell], linear = of_corners(type);
+  const Eigen::VectorXd weights = shape_functions(linear, further);
+  const auto points = reference_corners(type, cut_of(mesh, cell));
+  ReferencePoint point{};
+  constexpr double rounding = 1e-12;  // shape functions are 0 or no less than a sixth at nodes
+  int weighing = 0;
+  for (std::size_t a = 0; a < local.size(); ++a) {
+    const double weight = weights[static_cast<Eigen::Index>(a)];
+    weighing += std::abs(weight) > rounding ? 1 : 0;
+    for (std::size_t j = 0; j < 3; ++j) point[j] += weight * points[static_cast<std::size_t>(local[a])][j];
+  }
+  const auto shares = NodesWithin::shares(type, mesh.cell(cell), point);
+  const bool is_inside = dimension(type) == 3 && static_cast<int>(shares.size()) == corner_count(type);
+  const bool is_centre = weighing == corner_count(type);
+  return nodes.at(shares, [&] {
+    return is_inside && !is_centre ? place_in(nodes.mesh(), linear, own, further)
+                                   : place_in(mesh, type, mesh.cell(cell), point);
+  });
+}
+
+/// The nodes of each piece of a cell, from those at the corners of all of them.
+std::vector<std::vector<int>> pieces_of(const Mesh& mesh, int cell, std::span<const int> corners, NodesWithin& nodes) {
+  std::vector<std::vector<int>> pieces;
+  for (const std::vector<int>& local : cut_of(mesh, cell).pieces) {
+    std::vector<int> own;
+    for (const int corner : local) own.push_back(corners[static_cast<std::size_t>(corner)]);
+    const std::vector<int> ends = own;
+    for (const ReferencePoint& further : reference_nodes(mesh.cell_types[cell]).subspan(local.size()))
+      own.push_back(further_node(mesh, cell, local, ends, further, nodes));
+    pieces.push_back(std::move(own));
+  }
+  return pieces;
+}
 
 void name_pieces_of(Mesh& result, const Mesh& mesh, const std::vector<std::vector<int>>& pieces) {
   if (mesh.cell_names.empty()) return;
@@ -140,6 +228,13 @@ void name_pieces_of(Mesh& result, const Mesh& mesh, const std::vector<std::vecto
   for (int cell = 0; cell < mesh.cell_count(); ++cell)
     for (std::size_t k = 0; k < pieces[static_cast<std::size_t>(cell)].size(); ++k)
       result.cell_names.push_back(fmt::format("{}_{}", mesh.cell_name(cell), k + 1));
+}
+
+std::vector<int> lines_first(const Mesh& mesh) {
+  std::vector<int> cells(static_cast<std::size_t>(mesh.cell_count()));
+  std::iota(cells.begin(), cells.end(), 0);
+  std::ranges::stable_partition(cells, [&](int cell) { return dimension(mesh.cell_types[cell]) <= 1; });
+  return cells;
 }
 
 }  // namespace
@@ -150,21 +245,19 @@ Mesh refined(const Mesh& mesh) {
   result.cell_starts = {0};
   result.connectivity.clear();
   result.slave_patches.clear();
-  Middles middles(result);
+  NodesWithin within_cells(result);
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) within_cells.know(mesh.cell_types[cell], mesh.cell(cell));
   const auto all = static_cast<std::size_t>(mesh.cell_count());
-  std::vector<std::vector<int>> nodes(all), pieces(all);
-  for (const bool of_lines : {true, false})
-    for (int cell = 0; cell < mesh.cell_count(); ++cell)
-      if ((dimension(mesh.cell_types[cell]) <= 1) == of_lines)
-        nodes[static_cast<std::size_t>(cell)] = middles.nodes_of(mesh.cell(cell), cut_of(mesh, cell));
-  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
-    for (const std::vector<int>& piece : cut_of(mesh, cell).pieces) {
-      std::vector<int> own;
-      for (const int local : piece)
-        own.push_back(nodes[static_cast<std::size_t>(cell)][static_cast<std::size_t>(local)]);
+  std::vector<std::vector<int>> corners(all), pieces(all);
+  std::vector<std::vector<std::vector<int>>> nodes_of_pieces(all);
+  for (const int cell : lines_first(mesh))
+    corners[static_cast<std::size_t>(cell)] = corners_of_pieces(mesh, cell, within_cells);
+  for (const int cell : lines_first(mesh))
+    nodes_of_pieces[static_cast<std::size_t>(cell)] =
+        pieces_of(mesh, cell, corners[static_cast<std::size_t>(cell)], within_cells);
+  for (int cell = 0; cell < mesh.cell_count(); ++cell)
+    for (const std::vector<int>& own : nodes_of_pieces[static_cast<std::size_t>(cell)])
       pieces[static_cast<std::size_t>(cell)].push_back(result.add_cell(mesh.cell_types[cell], own));
-    }
-  }
   name_pieces_of(result, mesh, pieces);
   for (auto& [name, members] : result.cell_groups) {
     std::vector<int> smaller;

@@ -91,6 +91,35 @@ TEST_CASE("the tangent of pressures that follow is their derivative", "[loads]")
   }
 }
 
+// On the moved boundary, in the direction that it has.
+TEST_CASE("forces on faces that follow grow with the area, and their tangent is their derivative", "[loads]") {
+  for (const CellType type : {CellType::tetra10, CellType::hexa8, CellType::hexa27}) {
+    CAPTURE(name_of(type));
+    const Body body(with_skin(type, 0.1), Formulation::solid, dense(1.0, 0.3, 1.0));
+    auto load = std::make_shared<Load>();
+    for (int cell = 1; cell < body.model.mesh->cell_count(); ++cell)
+      if (body.model.is_skin(cell) && dimension(body.model.mesh->cell_types[cell]) == 2)
+        load->distributed_forces.push_back({cell, {1.0, -2.0, 0.5}, {}});
+    const std::vector<AppliedLoad> loads = {{load, {}}};
+    const FollowerForces forces(body.model, *body.dofs, loads);
+    const Eigen::VectorXd twice =
+        body.displacements([](const Point& x, int c) { return x[static_cast<std::size_t>(c)]; });
+    const Eigen::VectorXd at_rest = forces.at(body.zero());
+    CHECK((forces.at(twice) - 4.0 * at_rest).norm() < 1e-13 * at_rest.norm());
+    std::vector<long double> dead(static_cast<std::size_t>(body.dofs->size()), 0.0L);
+    add_external_forces({body.model, body.materials, body.properties, *body.dofs}, loads, 0.0, dead);
+    const Eigen::VectorXd u = some_displacement(body);
+    constexpr double step = 1e-5;
+    Eigen::MatrixXd differences(u.size(), u.size());
+    for (int dof = 0; dof < u.size(); ++dof) {
+      CHECK(at_rest[dof] == Approx(static_cast<double>(dead[static_cast<std::size_t>(dof)])).margin(1e-13));
+      const Eigen::VectorXd change = Eigen::VectorXd::Unit(u.size(), dof) * step;
+      differences.col(dof) = (forces.at(u + change) - forces.at(u - change)) / (2.0 * step);
+    }
+    CHECK((forces.tangent(u) - differences).norm() < 1e-7 * differences.norm());
+  }
+}
+
 TEST_CASE("a constant pressure all round a body neither pushes nor turns it, however it deforms", "[loads]") {
   for (const CellType type : bodies) {
     CAPTURE(name_of(type));

@@ -63,3 +63,25 @@ TEST_CASE("a material strains by its own coefficients along its axes", "[fields]
   CHECK(strains.at(0, 0, 1) == exactly(2e-3));
   CHECK(strains.at(0, 0, 2) == exactly(3e-3));
 }
+
+TEST_CASE("a bar has the mean temperature of its ends and the strain along itself that it causes", "[fields]") {
+  Material steel;
+  IsotropicElasticity elasticity{2e11, 0.3};
+  elasticity.expansion = 1e-5;
+  steel.elasticity = elasticity;
+  ElementProperties properties;
+  properties.sections[0].area = 0.02;
+  Body body(single_cell(CellType::seg2), std::vector{Formulation::bar}, std::make_shared<const Material>(steel),
+            properties);
+  CommandVariable heat = constant(Parameter::temperature, "TEMP", 20.0, 10.0);
+  heat.snapshots = {{0.0, std::make_shared<const Field>(NodalField{"TEMP_R", {"TEMP"}, {20.0, 50.0}})}};
+  body.materials.variables = {heat};
+  body.assembler->set_time(0.0);
+  const FieldInput input{body.model, body.materials, body.properties, body.assembler->state()};
+  const ElementField variables = command_variable_field(input), strains = variable_strain_field(input);
+  REQUIRE(variables.points(0) == 1);
+  CHECK(variables.at(0, 0, variables.component("TEMP")) == exactly(35.0));
+  CHECK(std::isnan(variables.at(0, 0, variables.component("PTOT"))));
+  CHECK(strains.components == std::vector<std::string>{"EPTHER_L"});
+  CHECK(strains.at(0, 0, 0) == exactly(1e-5 * 25.0));
+}

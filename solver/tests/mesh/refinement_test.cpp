@@ -1,7 +1,9 @@
 #include "solver/mesh/refinement.hpp"
 
+#include <algorithm>
 #include <array>
 #include <numeric>
+#include <vector>
 
 #include <Eigen/Dense>
 #include <catch2/catch.hpp>
@@ -37,8 +39,11 @@ double size_of(const Mesh& mesh, int cell) {
 }
 
 TEST_CASE("pieces of a cell fill it, none of them turned inside out") {
-  const std::pair<CellType, int> counts[] = {{CellType::seg2, 2},   {CellType::tria3, 4},  {CellType::quad4, 4},
-                                             {CellType::tetra4, 8}, {CellType::penta6, 8}, {CellType::hexa8, 8}};
+  using enum CellType;
+  const std::pair<CellType, int> counts[] = {{seg2, 2},    {seg3, 2},   {seg4, 2},    {tria3, 4},   {tria6, 4},
+                                             {tria7, 4},   {quad4, 4},  {quad8, 4},   {quad9, 4},   {tetra4, 8},
+                                             {tetra10, 8}, {penta6, 8}, {penta15, 8}, {penta18, 8}, {hexa8, 8},
+                                             {hexa20, 8},  {hexa27, 8}};
   for (const auto& [type, count] : counts) {
     CAPTURE(name_of(type));
     const Mesh mesh = refined(one_cell(type));
@@ -60,7 +65,55 @@ TEST_CASE("cells that share an edge share its middle") {
   CHECK(refined(refined(mesh)).node_count() == 45);
 }
 
-TEST_CASE("pyramids are not cut into smaller ones") { CHECK_THROWS_AS(refined(one_cell(CellType::pyram5)), Error); }
+// A parabola is what shape functions of second order carry exactly.
+Point bent(const Point& at) { return {at[0], at[1] + 0.1 * at[0] * at[0], at[2] - 0.2 * at[0] * at[1]}; }
+
+Mesh bent(Mesh mesh) {
+  for (Point& node : mesh.nodes) node = bent(node);
+  return mesh;
+}
+
+TEST_CASE("new nodes of a curved line or face lie where its shape functions put them") {
+  for (const CellType type : {CellType::seg3, CellType::tria6, CellType::quad8}) {
+    CAPTURE(name_of(type));
+    const Mesh straight = refined(refined(one_cell(type))), curved = refined(refined(bent(one_cell(type))));
+    REQUIRE(curved.node_count() == straight.node_count());
+    for (int node = 0; node < curved.node_count(); ++node)
+      for (std::size_t j = 0; j < 3; ++j)
+        CHECK(curved.nodes[node][j] == Approx(bent(straight.nodes[node])[j]).margin(1e-14));
+  }
+}
+
+TEST_CASE("so do those on the surface and at the corners of the pieces of a solid, whose edges within are straight") {
+  const Mesh straight = refined(one_cell(CellType::hexa20)), curved = refined(bent(one_cell(CellType::hexa20)));
+  const auto at = [&](const Point& place) {
+    return Eigen::Vector3d(curved.nodes[std::ranges::find(straight.nodes, place) - straight.nodes.begin()].data());
+  };
+  const auto expected = [](const Point& place) { return Eigen::Vector3d(bent(place).data()); };
+  for (const Point& place : {Point{1, 0.5, 0}, Point{-0.5, -1, 0}, Point{0, 0, 0}})
+    CHECK((at(place) - expected(place)).norm() < 1e-14);
+  CHECK((at({0.5, 0, 0}) - 0.5 * (expected({0, 0, 0}) + expected({1, 0, 0}))).norm() < 1e-14);
+}
+
+// Two cubes with a face in common: 5 nodes along it in each direction and 3 across where they are cut in two.
+TEST_CASE("cells of second order that share a face share its nodes") {
+  Mesh mesh = one_cell(CellType::hexa20);
+  std::vector<int> second;
+  for (const Point& node : std::vector<Point>(mesh.nodes)) {
+    const Point at = {node[0] + 2.0, node[1], node[2]};
+    const auto found = std::ranges::find(mesh.nodes, at);
+    second.push_back(static_cast<int>(found - mesh.nodes.begin()));
+    if (found == mesh.nodes.end()) mesh.nodes.push_back(at);
+  }
+  mesh.add_cell(CellType::hexa20, second);
+  REQUIRE(mesh.node_count() == 32);
+  CHECK(refined(mesh).node_count() == 81 + 81 - 21);
+}
+
+TEST_CASE("pyramids are not cut into smaller ones") {
+  CHECK_THROWS_AS(refined(one_cell(CellType::pyram5)), Error);
+  CHECK_THROWS_AS(refined(one_cell(CellType::pyram13)), Error);
+}
 
 }  // namespace
 }  // namespace comma::solver
