@@ -15,7 +15,6 @@
 #include "commands/concepts.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/elements/plates/plate_axes.hpp"
-#include "solver/elements/solids/imposed_strains.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/variable_fields.hpp"
 #include "solver/fields/variable_names.hpp"
@@ -78,17 +77,6 @@ void warn_of_strained_start(const interpreter::Call& call, const solver::StaticP
           call.command, instant, strain,
           has_whole_volumes ? ", but for the volume of INCO_UP cells, which has the whole whatever the law" : ""),
       call.span, "begin at an instant where the variables have their reference values (VALE_REF)");
-}
-
-void warn_of_initial_strains(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
-  const auto gives_strains = [](const solver::AppliedLoad& each) { return solver::gives_initial_strains(*each.load); };
-  if (!has_flow(problem) || std::ranges::none_of(problem.loads, gives_strains)) return;
-  context.diagnostics.alarm("initial-strains",
-                            fmt::format("{}: laws that flow see strains less the initial ones (PRE_EPSI); what "
-                                        "Code_Aster does beyond the yield point is not known",
-                                        call.command),
-                            call.span,
-                            "give strains that are known beforehand as a command variable (AFFE_VARC, EPSA)");
 }
 
 // A result may have been kept without some of its fields (ARCHIVAGE, CHAM_EXCLU).
@@ -346,7 +334,6 @@ void warn_of_odd_variables(const interpreter::Call& call, const solver::StaticPr
 void warn_of_start(const interpreter::Call& call, const solver::StaticProblem& problem, double instant,
                    const solver::BehaviourOfCells* before, Context& context) {
   warn_of_strained_start(call, problem, instant, context);
-  warn_of_initial_strains(call, problem, context);
   warn_of_missing_state(call, problem, context);
   warn_of_partial_displacement(call, problem, context);
   warn_of_other_volumes(call, problem, instant, context);

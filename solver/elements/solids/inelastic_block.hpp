@@ -99,15 +99,9 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     });
   }
 
-  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
-    for (const int cell : this->cells_) {
-      if (!imposed.acts_on(cell)) continue;
-      if (law_.is_large())
-        throw Error("unsupported", fmt::format("cell {}: initial strains are known in small strains only",
-                                               this->mesh_.cell_name(cell)));
-      check_known_to_law(this->imposed_, this->mesh_, cell);
-    }
-  }
+  /// The law sees whole strains, as in Code_Aster 17.3: imposed ones push by Hooke's law on the initial geometry.
+  void impose(const ImposedStrains*) override {}
+  bool shows_imposed_strains() const override { return true; }
   void subtract_imposed_stresses(const ImposedStrains&, const VariableState&, std::span<double>) const override {}
 
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
