@@ -1,6 +1,7 @@
 // Continua whose material has a memory, in small strains or large ones, with the template of elastic ones beneath.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solver/elements/solids/continuum_block.hpp"
@@ -165,9 +166,9 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       past.variables.fill(0.0);
       past.flow = 0.0;
       if (!variables.empty()) std::copy_n(variables.data() + index * count, count, past.variables.begin());
-      if (reported.empty() && variables.empty()) return;
-      const Vector6d shown = reported.empty() ? Vector6d::Zero().eval() : padded(reported.data() + index * strains);
-      past.stress = law_.own_stress(past, shown, !variables.empty());
+      std::optional<Vector6d> shown;
+      if (!reported.empty()) shown = padded(reported.data() + index * strains);
+      past.stress = law_.first_stress(past, shown, !variables.empty());
     });
   }
 
