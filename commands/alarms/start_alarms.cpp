@@ -72,8 +72,8 @@ void warn_of_strained_start(const interpreter::Call& call, const solver::StaticP
       "strained-start",
       fmt::format(
           "{}: at the first instant, {:.6g}, command variables differ from their reference values (strain "
-          "{:.3g}): elasticity without a memory takes the whole strain, "
-          "bars, beams, laws with a memory and large strains what changes from there{}",
+          "{:.3g}): elasticity takes the whole strain but in GREEN_LAGRANGE and PETIT_REAC, and so do ELAS_VMIS, "
+          "VMIS_ISOT_NL and SIMO_MIEHE; bars, beams and other laws take what changes from there{}",
           call.command, instant, strain,
           has_whole_volumes ? ", but for the volume of INCO_UP cells, which has the whole whatever the law" : ""),
       call.span, "begin at an instant where the variables have their reference values (VALE_REF)");
@@ -96,7 +96,7 @@ void warn_of_missing_state(const interpreter::Call& call, const solver::StaticPr
   };
   if (!problem.initial->displacement) warn("DEPL", "displacements", "DEPL");
   if (!problem.initial->stresses)
-    warn("SIEF_ELGA", "stresses, but for those of elastic solids in small strains,", "SIGM");
+    warn("SIEF_ELGA", "stresses, but for those of solids with ELAS (PETIT, GDEF_LOG) or VMIS_ISOT_NL,", "SIGM");
 }
 
 /// How a cell takes pressures and command variables, in the middle of it.
