@@ -198,7 +198,7 @@ Origin state_of(Making& making, const Call& call, const Keywords& occurrence) {
       throw DiagnosticError("missing-keyword", "CREA_RESU: a behaviour belongs to the cells of a model",
                             laws.span_of("COMPORTEMENT"), "give MODELE");
     }
-    problem->behaviours = behaviours_of(laws, *problem->model, nullptr);
+    problem->behaviours = behaviours_of(laws, *problem->model, nullptr, false);
   }
   StateWords words = state_words(loads, *problem);
   if (making.current && words == making.words) return making.current;

@@ -30,7 +30,8 @@ using interpreter::DiagnosticError;
 solver::StaticProblem problem_of(const Call& call, const InitialStateChoice& initial) {
   solver::StaticProblem problem = static_problem(call);
   problem.initial = initial.state;
-  problem.behaviours = behaviours_of(call, *problem.model, problem.initial.get());
+  problem.behaviours = behaviours_of(call, *problem.model, problem.initial.get(),
+                                     problem.materials && !problem.materials->variables.empty());
   if (!call.has("CONTACT")) return problem;
   const auto& contact_concept = call.data<ContactConcept>("CONTACT");
   require_mesh(call, "CONTACT", contact_concept.model->mesh.get(), *problem.model->mesh);

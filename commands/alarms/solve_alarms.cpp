@@ -124,15 +124,23 @@ void warn_of_unused_stresses(const interpreter::Call& call, const solver::Static
         "a whole");
     return;
   }
-  const bool by_strains = !problem.behaviours || (*problem.behaviours)[static_cast<std::size_t>(cell)].relation ==
-                                                     solver::Relation::hyperelastic;
+  const auto has = [&](solver::Relation relation) {
+    return problem.behaviours && (*problem.behaviours)[static_cast<std::size_t>(cell)].relation == relation;
+  };
+  const bool by_strains = !problem.behaviours || has(solver::Relation::hyperelastic);
+  const bool by_both =
+      has(solver::Relation::isotropic_nonlinear) &&
+      (*problem.behaviours)[static_cast<std::size_t>(cell)].kinematics != solver::Kinematics::multiplicative;
   context.diagnostics.alarm("unused-stresses",
                             fmt::format("{}: the stresses that ETAT_INIT/SIGM gives cell {} are not those of its {}, "
                                         "which its law takes: SIGM has no effect there",
                                         call.command, problem.model->mesh->cell_name(cell),
-                                        by_strains ? "displacements (DEPL)" : "internal variables (VARI)"),
+                                        by_strains ? "displacements (DEPL)"
+                                        : by_both  ? "displacements (DEPL) less the plastic strains of VARI"
+                                                   : "internal variables (VARI)"),
                             given.span_of("SIGM"),
                             by_strains ? "give the displacements that have these stresses"
+                            : by_both  ? "give the displacements and internal variables that have these stresses"
                                        : "give the internal variables that belong to them (of DEFORMATION='GDEF_LOG' "
                                          "the last six are the stresses)");
 }

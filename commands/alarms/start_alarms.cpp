@@ -15,7 +15,6 @@
 #include "commands/concepts.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/elements/plates/plate_axes.hpp"
-#include "solver/elements/solids/imposed_strains.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/variable_fields.hpp"
 #include "solver/fields/variable_names.hpp"
@@ -73,22 +72,11 @@ void warn_of_strained_start(const interpreter::Call& call, const solver::StaticP
       "strained-start",
       fmt::format(
           "{}: at the first instant, {:.6g}, command variables differ from their reference values (strain "
-          "{:.3g}): elasticity without a memory takes the whole strain, "
-          "bars, beams, laws with a memory and large strains what changes from there{}",
+          "{:.3g}): elasticity takes the whole strain but in GREEN_LAGRANGE and PETIT_REAC, and so do ELAS_VMIS, "
+          "VMIS_ISOT_NL and SIMO_MIEHE; bars, beams and other laws take what changes from there{}",
           call.command, instant, strain,
           has_whole_volumes ? ", but for the volume of INCO_UP cells, which has the whole whatever the law" : ""),
       call.span, "begin at an instant where the variables have their reference values (VALE_REF)");
-}
-
-void warn_of_initial_strains(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {
-  const auto gives_strains = [](const solver::AppliedLoad& each) { return solver::gives_initial_strains(*each.load); };
-  if (!has_flow(problem) || std::ranges::none_of(problem.loads, gives_strains)) return;
-  context.diagnostics.alarm("initial-strains",
-                            fmt::format("{}: laws that flow see strains less the initial ones (PRE_EPSI); what "
-                                        "Code_Aster does beyond the yield point is not known",
-                                        call.command),
-                            call.span,
-                            "give strains that are known beforehand as a command variable (AFFE_VARC, EPSA)");
 }
 
 // A result may have been kept without some of its fields (ARCHIVAGE, CHAM_EXCLU).
@@ -108,7 +96,7 @@ void warn_of_missing_state(const interpreter::Call& call, const solver::StaticPr
   };
   if (!problem.initial->displacement) warn("DEPL", "displacements", "DEPL");
   if (!problem.initial->stresses)
-    warn("SIEF_ELGA", "stresses, but for those of elastic solids in small strains,", "SIGM");
+    warn("SIEF_ELGA", "stresses, but for those of solids with ELAS (PETIT, GDEF_LOG) or VMIS_ISOT_NL,", "SIGM");
 }
 
 /// How a cell takes pressures and command variables, in the middle of it.
@@ -346,7 +334,6 @@ void warn_of_odd_variables(const interpreter::Call& call, const solver::StaticPr
 void warn_of_start(const interpreter::Call& call, const solver::StaticProblem& problem, double instant,
                    const solver::BehaviourOfCells* before, Context& context) {
   warn_of_strained_start(call, problem, instant, context);
-  warn_of_initial_strains(call, problem, context);
   warn_of_missing_state(call, problem, context);
   warn_of_partial_displacement(call, problem, context);
   warn_of_other_volumes(call, problem, instant, context);

@@ -51,7 +51,7 @@ solver::CellBehaviour behaviour_of(const Keywords& keywords) {
 // In continua GROT_GDEP is Green and Lagrange's measure (U4.51.11), the older word for it; bars stay in small
 // displacements with it (Code_Aster 17.3; the alarm `small-bars` tells).
 solver::CellBehaviour behaviour_on(solver::CellBehaviour behaviour, const solver::Model& model, int cell,
-                                   const solver::InitialState* initial) {
+                                   const solver::InitialState* initial, bool has_variables) {
   const bool is_solid = solver::continuum_dimension(model.formulations[static_cast<std::size_t>(cell)]) > 0;
   if (is_solid && behaviour.kinematics == solver::Kinematics::large_rotations)
     behaviour.kinematics = solver::Kinematics::green_lagrange;
@@ -60,18 +60,20 @@ solver::CellBehaviour behaviour_on(solver::CellBehaviour behaviour, const solver
     behaviour.kinematics = solver::Kinematics::small;
   const bool has_whole_strain =
       is_solid && behaviour.relation == solver::Relation::elastic && behaviour.kinematics == solver::Kinematics::small;
-  behaviour.from_initial_state = initial != nullptr && (initial->stresses || !has_whole_strain);
+  const bool counts_changes = is_solid && behaviour.relation == solver::Relation::elastic && has_variables &&
+                              behaviour.kinematics == solver::Kinematics::green_lagrange;
+  behaviour.from_initial_state = initial != nullptr ? initial->stresses || !has_whole_strain : counts_changes;
   return behaviour;
 }
 
 }  // namespace
 
 std::shared_ptr<const solver::BehaviourOfCells> behaviours_of(const Keywords& call, const solver::Model& model,
-                                                              const solver::InitialState* initial) {
+                                                              const solver::InitialState* initial, bool has_variables) {
   const solver::Mesh& mesh = *model.mesh;
   auto result = std::make_shared<solver::BehaviourOfCells>(static_cast<std::size_t>(mesh.cell_count()));
   for (int cell = 0; cell < mesh.cell_count(); ++cell)
-    (*result)[static_cast<std::size_t>(cell)] = behaviour_on({}, model, cell, initial);
+    (*result)[static_cast<std::size_t>(cell)] = behaviour_on({}, model, cell, initial, has_variables);
   for (const Keywords& keywords : call.factors("COMPORTEMENT")) {
     const solver::CellBehaviour behaviour = behaviour_of(keywords);
     std::vector<int> cells = selected_cells(keywords, mesh);
@@ -80,7 +82,7 @@ std::shared_ptr<const solver::BehaviourOfCells> behaviours_of(const Keywords& ca
       std::iota(cells.begin(), cells.end(), 0);
     }
     for (const int cell : cells)
-      (*result)[static_cast<std::size_t>(cell)] = behaviour_on(behaviour, model, cell, initial);
+      (*result)[static_cast<std::size_t>(cell)] = behaviour_on(behaviour, model, cell, initial, has_variables);
   }
   if (std::ranges::all_of(*result, [](const auto& each) { return each == solver::CellBehaviour{}; })) return nullptr;
   return result;

@@ -12,10 +12,11 @@ namespace comma::commands {
 
 /// One behaviour a cell by the occurrences of COMPORTEMENT, the later winning; null where all are linear. From an
 /// initial state elasticity adds up, but for solids in small strains to which it gives no stresses: theirs are those of
-/// the whole displacements (Code_Aster 17.3). Throws DiagnosticError `unsupported` for a relation that does not go with
-/// DEFORMATION='GROT_GDEP' of continua.
+/// the whole displacements (Code_Aster 17.3). So does that of Green and Lagrange's strains beside command variables,
+/// whose change since the first instant counts there. Throws DiagnosticError `unsupported` for a relation that does not
+/// go with DEFORMATION='GROT_GDEP' of continua.
 std::shared_ptr<const solver::BehaviourOfCells> behaviours_of(const interpreter::Keywords& keywords,
                                                               const solver::Model& model,
-                                                              const solver::InitialState* initial);
+                                                              const solver::InitialState* initial, bool has_variables);
 
 }  // namespace comma::commands

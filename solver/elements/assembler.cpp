@@ -277,7 +277,8 @@ void Assembler::add_initial_stress_forces(std::span<const AppliedLoad> loads, do
 Eigen::VectorXd Assembler::initial_strain_forces(std::span<const AppliedLoad> loads, double time) const {
   std::vector<long double> sums(static_cast<std::size_t>(dofs_.size()), 0.0L);
   const ImposedStrains imposed(model_, loads, time);
-  for (const auto& block : blocks_->list) block->add_imposed_strain_forces(imposed, state_, sums);
+  for (const auto& block : blocks_->list)
+    if (!block->shows_imposed_strains()) block->add_imposed_strain_forces(imposed, state_, sums);
   return rounded(sums);
 }
 

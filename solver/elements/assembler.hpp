@@ -43,8 +43,9 @@ class Assembler {
   /// `incompatible-field`.
   void set_time(double time);
   const VariableState& state() const { return state_; }
-  /// From now on laws with a memory see strains less the initial ones that the loads impose at a time; elasticity
-  /// without a memory has them as forces (external_forces()). Keeps pointers into the loads.
+  /// From now on energies without a memory are less the initial strains that the loads impose at a time, and so is what
+  /// laws see with the pressure as an unknown; others have them as forces (external_forces()). Keeps pointers into the
+  /// loads.
   void impose_strains(std::span<const AppliedLoad> loads, double time);
   bool imposes_strains() const { return imposed_ != nullptr; }
 
@@ -141,7 +142,7 @@ class Assembler {
   /// take part as the forces of the stresses that would undo them, initial stresses by their own.
   Eigen::VectorXd external_forces(std::span<const AppliedLoad> loads, double time) const;
 
-  /// The part of external_forces() that initial strains have.
+  /// The part of external_forces() that initial strains have where stresses() are less by them.
   Eigen::VectorXd initial_strain_forces(std::span<const AppliedLoad> loads, double time) const;
 
   /// Whether the tangent is the same for every u.

@@ -147,7 +147,8 @@ class ElementBlock {
   /// A step begins at u with stresses and variables laid out as above; zero where empty.
   virtual void resume(const Eigen::VectorXd&, const VariableState&, std::span<const double>, std::span<const double>) {}
 
-  /// From now on the strain that a law with a memory sees is less by these, until others are given; null: by none.
+  /// From now on these are imposed, until others are given; null: none. Energies without a memory are less by them, and
+  /// so is the strain that a law sees of an element with the pressure as an unknown.
   virtual void impose(const ImposedStrains*) {}
   /// Adds the forces with which the stresses of the imposed strains (Hooke's law times them) push the nodes apart; none
   /// where impose() gave them.
@@ -155,8 +156,11 @@ class ElementBlock {
   /// Adds the forces with which initial stresses, laid out as in stresses() and absent in cells without, push the nodes
   /// apart on the initial geometry. Throws Error `unsupported` where the element knows none.
   virtual void add_initial_stress_forces(std::span<const double> stresses, ForceSum forces) const;
-  /// Takes those stresses away from `out`, laid out as in stresses().
+  /// Takes the stresses of imposed strains away from `out`, laid out as in stresses().
   virtual void subtract_imposed_stresses(const ImposedStrains&, const VariableState&, std::span<double>) const {}
+  /// Whether it takes none away although imposed strains push: results then show the stress that the law has of the
+  /// whole strain, and forces that balance those of the imposed ones.
+  virtual bool shows_imposed_strains() const { return false; }
 };
 
 /// Whether like cells get an element with a memory: not anisotropic elasticity, which follows from displacements alone

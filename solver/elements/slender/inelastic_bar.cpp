@@ -245,10 +245,17 @@ class InelasticBar final : public ElementBlock {
     }
   }
 
-  void impose(const ImposedStrains* strains) override { imposed_ = strains; }
-  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
-    for (const int cell : cells_)
-      if (imposed.acts_on(cell)) check_known_to_law(imposed_, mesh_, cell);
+  /// The law sees whole strains, as in Code_Aster 17.3: imposed ones push by Young's modulus along the first direction.
+  bool shows_imposed_strains() const override { return true; }
+  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState& state,
+                                 ForceSum forces) const override {
+    for (int element = 0; element < map_.element_count(); ++element) {
+      const auto index = static_cast<std::size_t>(element);
+      if (!imposed.acts_on(cells_[index])) continue;
+      const double elongation = imposed.slender(cells_[index], centre(element))[0];
+      add_force(element, first_place(element).along,
+                members_[index].area * young_of(material(element, state).plastic) * elongation, forces);
+    }
   }
 
  private:
@@ -298,18 +305,19 @@ class InelasticBar final : public ElementBlock {
     const Member& own = members_[index];
     try {
       const MaterialPoint at = middle_of(mesh_, cells_[index], state);
-      const auto nodes = map_.nodes(element);
-      const Point &first = mesh_.nodes[static_cast<std::size_t>(nodes[0])],
-                  &second = mesh_.nodes[static_cast<std::size_t>(nodes[1])];
-      const Eigen::Vector3d centre =
-          0.5 * (Eigen::Map<const Eigen::Vector3d>(first.data()) + Eigen::Map<const Eigen::Vector3d>(second.data()));
-      const double imposed = imposed_ ? imposed_->slender(cells_[index], centre)[0] : 0.0;
       return {plastic_point(*own.elasticity, *own.plasticity, behaviour_.relation, at),
-              imposed + (state.empty() ? 0.0 : inelastic_axial_strain(*own.elasticity, at))};
+              state.empty() ? 0.0 : inelastic_axial_strain(*own.elasticity, at)};
     } catch (const Error& error) {
       throw Error(error.code(), fmt::format("{} (cell {})", error.what(), mesh_.cell_name(cells_[index])),
                   error.hint());
     }
+  }
+
+  Eigen::Vector3d centre(int element) const {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const int node : map_.nodes(element))
+      sum += Eigen::Map<const Eigen::Vector3d>(mesh_.nodes[static_cast<std::size_t>(node)].data());
+    return 0.5 * sum;
   }
 
   /// Where a bar is, and its strain: on the initial geometry, or (PETIT_REAC) the sum over the steps of their stretch
@@ -391,7 +399,6 @@ class InelasticBar final : public ElementBlock {
   std::vector<BarState> past_;
   std::vector<Direction> past_stretch_;  ///< of the second node relative to the first
   std::optional<double> extrapolation_;
-  const ImposedStrains* imposed_ = nullptr;
 };
 
 }  // namespace

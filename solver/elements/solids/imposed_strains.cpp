@@ -159,7 +159,7 @@ double ImposedStrains::mean(int cell, std::string_view component) const {
 void check_known_to_law(const ImposedStrains* known, const Mesh& mesh, int cell) {
   if (known != nullptr && known->acts_on(cell)) return;
   throw Error("unsupported",
-              fmt::format("cell {}: initial strains of a material with a memory have no intensity that is sought",
+              fmt::format("cell {}: with the pressure as an unknown, initial strains have no intensity that is sought",
                           mesh.cell_name(cell)),
               "leave out TYPE_CHARGE='FIXE_PILO' of the load with PRE_EPSI");
 }

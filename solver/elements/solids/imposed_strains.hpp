@@ -58,8 +58,8 @@ class ImposedStrains {
 /// Whether a load gives initial strains of any kind.
 bool gives_initial_strains(const Load& load);
 
-/// Throws Error `unsupported` unless the law of a cell with a memory sees strains less `known` ones there: a law takes
-/// no forces in their place.
+/// Throws Error `unsupported` unless the law of a cell with the pressure as an unknown sees strains less `known` ones
+/// there: it takes no forces in their place.
 void check_known_to_law(const ImposedStrains* known, const Mesh& mesh, int cell);
 
 }  // namespace comma::solver

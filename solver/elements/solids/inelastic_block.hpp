@@ -1,6 +1,7 @@
 // Continua whose material has a memory, in small strains or large ones, with the template of elastic ones beneath.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solver/elements/solids/continuum_block.hpp"
@@ -99,15 +100,9 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     });
   }
 
-  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
-    for (const int cell : this->cells_) {
-      if (!imposed.acts_on(cell)) continue;
-      if (law_.is_large())
-        throw Error("unsupported", fmt::format("cell {}: initial strains are known in small strains only",
-                                               this->mesh_.cell_name(cell)));
-      check_known_to_law(this->imposed_, this->mesh_, cell);
-    }
-  }
+  /// The law sees whole strains, as in Code_Aster 17.3: imposed ones push by Hooke's law on the initial geometry.
+  void impose(const ImposedStrains*) override {}
+  bool shows_imposed_strains() const override { return true; }
   void subtract_imposed_stresses(const ImposedStrains&, const VariableState&, std::span<double>) const override {}
 
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
@@ -171,9 +166,9 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
       past.variables.fill(0.0);
       past.flow = 0.0;
       if (!variables.empty()) std::copy_n(variables.data() + index * count, count, past.variables.begin());
-      if (reported.empty() && variables.empty()) return;
-      const Vector6d shown = reported.empty() ? Vector6d::Zero().eval() : padded(reported.data() + index * strains);
-      past.stress = law_.own_stress(past, shown, !variables.empty());
+      std::optional<Vector6d> shown;
+      if (!reported.empty()) shown = padded(reported.data() + index * strains);
+      past.stress = law_.first_stress(past, shown, !variables.empty());
     });
   }
 

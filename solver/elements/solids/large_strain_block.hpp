@@ -83,12 +83,9 @@ class LargeStrainBlock final : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     }
   }
 
-  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
-    for (const int cell : this->cells_)
-      if (imposed.acts_on(cell))
-        throw Error("unsupported", fmt::format("cell {}: initial strains are known in small strains only",
-                                               this->mesh_.cell_name(cell)));
-  }
+  /// Imposed strains push on the initial geometry, and are no part of the strain.
+  bool shows_imposed_strains() const override { return true; }
+  void subtract_imposed_stresses(const ImposedStrains&, const VariableState&, std::span<double>) const override {}
 
   void stresses(const Eigen::VectorXd& u, const VariableState& state, std::span<double> out) const override {
     std::array<int, size> dofs;

@@ -140,6 +140,23 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
                });
   }
 
+  /// The law sees strains less the imposed ones: by Hooke's law these would push as hard as the material resists
+  /// changes of its volume, of which the pressure is an unknown.
+  void impose(const ImposedStrains* strains) override { this->imposed_ = strains; }
+  bool shows_imposed_strains() const override { return false; }
+  void add_imposed_strain_forces(const ImposedStrains& imposed, const VariableState&, ForceSum) const override {
+    for (const int cell : this->cells_) {
+      if (!imposed.acts_on(cell)) continue;
+      if (is_large())
+        throw Error("unsupported",
+                    fmt::format("cell {}: with the pressure as an unknown, initial strains are known in small strains "
+                                "only",
+                                this->mesh_.cell_name(cell)),
+                    "take DEFORMATION='PETIT', or a modelisation without INCO");
+      check_known_to_law(this->imposed_, this->mesh_, cell);
+    }
+  }
+
   /// The pressure as an unknown has no part in them.
   void add_initial_stress_forces(std::span<const double> stresses, ForceSum forces) const override {
     Base::add_initial_stress_forces(law_stresses(stresses), forces);

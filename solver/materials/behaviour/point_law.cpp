@@ -320,6 +320,34 @@ Vector6d PointLaw::own_stress(const PointPast& past, const Vector6d& reported, b
   return reported;
 }
 
+bool PointLaw::has_whole_strain(bool is_given) const {
+  if (behaviour_.kinematics == Kinematics::updated) return false;
+  if (keeps_plastic_strain()) return true;
+  const bool is_of_strains =
+      behaviour_.kinematics == Kinematics::small || behaviour_.kinematics == Kinematics::logarithmic;
+  return behaviour_.relation == Relation::elastic && is_of_strains && !is_given;
+}
+
+Vector6d PointLaw::strain_of(const Eigen::Matrix3d& gradient) const {
+  if (behaviour_.kinematics == Kinematics::logarithmic) return LogarithmicStrain(gradient).strain();
+  return behaviour_.kinematics == Kinematics::green_lagrange ? green_strain(gradient) : small_strain(gradient);
+}
+
+Vector6d PointLaw::first_stress(const PointPast& past, const std::optional<Vector6d>& reported,
+                                bool has_variables) const {
+  if (has_whole_strain(reported.has_value())) {
+    Vector6d elastic = strain_of(past.gradient) - past.inelastic;
+    if (keeps_plastic_strain()) {
+      const Eigen::Map<const Vector6d> plastic(past.variables.data() + 2);
+      elastic.head<3>() -= plastic.head<3>();
+      elastic.tail<3>() -= 2.0 * plastic.tail<3>();
+    }
+    return held_up(past.moduli, elastic);
+  }
+  if (!reported && !has_variables) return Vector6d::Zero();
+  return own_stress(past, reported.value_or(Vector6d::Zero()), has_variables);
+}
+
 double PointLaw::elastic_energy(const PointPast& at, const PlasticPoint& constants) const {
   if (behaviour_.relation == Relation::hyperelastic)
     return hyperelastic_energy(

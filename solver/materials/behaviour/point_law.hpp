@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 
 #include <Eigen/Dense>
@@ -107,6 +108,11 @@ class PointLaw {
   /// that results show.
   Vector6d own_stress(const PointPast& past, const Vector6d& reported, bool has_variables) const;
 
+  /// The same where a computation begins, without stresses or with those that it is given. As in Code_Aster 17.3, the
+  /// stress of VMIS_ISOT_NL follows from the whole strain less the plastic one among the variables whatever is given,
+  /// and so does that of elasticity, of small or logarithmic strains, where none is; other laws begin with none.
+  Vector6d first_stress(const PointPast& past, const std::optional<Vector6d>& reported, bool has_variables) const;
+
   /// The elastic energy for an initial volume of a point with its gradient, own stress and variables.
   double elastic_energy(const PointPast& at, const PlasticPoint& constants) const;
 
@@ -114,6 +120,8 @@ class PointLaw {
   bool is_start(const PointInput& input) const;
   bool flows_on() const;
   Vector6d held_up(const PlasticModuli& moduli, const Vector6d& inelastic) const;
+  bool has_whole_strain(bool is_given) const;
+  Vector6d strain_of(const Eigen::Matrix3d& gradient) const;
   PointResponse respond_with(const PointInput& input, const PlasticPoint& now) const;
   int own_count() const;
   PlasticState state_of(const PointPast& past) const;

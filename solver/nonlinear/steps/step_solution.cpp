@@ -125,7 +125,8 @@ int StaticRun::solve_extrapolated(double time, const Eigen::VectorXd& external, 
 DrivenLoads StaticRun::driven_loads(double time) {
   DrivenLoads loads;
   loads.fixed = assembler_.external_forces(problem_.loads, time);
-  // A law with a memory knows no strains but those that do not depend on the intensity: others are refused.
+  // With the pressure as an unknown no strains are known but those that do not depend on the intensity: others are
+  // refused.
   assembler_.impose_strains({}, time);
   loads.driven = assembler_.external_forces(problem_.driven, time);
   assembler_.impose_strains(problem_.loads, time);
