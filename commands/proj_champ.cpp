@@ -113,8 +113,11 @@ Meeting meet(const Call& call) {
     const auto cells = selected_cells(facing, mesh, {"TOUT_1", "", "", "GROUP_MA_1", "MAILLE_1"});
     const auto nodes =
         selected_nodes(facing, *meeting.to.mesh, {"TOUT_2", "GROUP_NO_2", "NOEUD_2", "GROUP_MA_2", "MAILLE_2"});
-    place_nodes(meeting, moved, at, solver::intersection_of(std::vector<std::vector<int>>{bulk, cells}),
-                solver::intersection_of(std::vector<std::vector<int>>{nodes, targets}), farthest);
+    // Groups of skins alone are hosts themselves (Code_Aster 17.3).
+    auto hosts = solver::intersection_of(std::vector<std::vector<int>>{bulk, cells});
+    if (hosts.empty() && !call.has("CAS_FIGURE")) hosts = solver::highest_cells(mesh, cells);
+    place_nodes(meeting, moved, at, hosts, solver::intersection_of(std::vector<std::vector<int>>{nodes, targets}),
+                farthest);
   }
   return meeting;
 }
@@ -143,9 +146,9 @@ solver::Field projected(const Call& call, const Meeting& meeting, const solver::
   solver::NodalField made = nodal != nullptr ? solver::at_places(*meeting.from.mesh, *nodal, meeting.hosts)
                                              : solver::at_places(std::get<solver::ElementField>(field), meeting.hosts);
   solver::Field result = std::move(made);
+  if (call.text("PROL_ZERO") == "OUI") solver::fill_absent(result, 0.0);
   if (nodal == nullptr && meeting.to.model && !call.has("TYPE_CHAM"))
     result = at_nodes_of_elements(std::get<solver::NodalField>(result), *meeting.to.model);
-  if (call.text("PROL_ZERO") == "OUI") solver::fill_absent(result, 0.0);
   return result;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "solver/error.hpp"
 
@@ -55,6 +56,11 @@ std::vector<int> bulk_cells(const Model& model) {
 
 std::vector<int> bulk_cells(const Mesh& mesh) {
   return cells_of_highest_dimension(mesh, [](int) { return true; });
+}
+
+std::vector<int> highest_cells(const Mesh& mesh, std::span<const int> cells) {
+  const std::set<int> named(cells.begin(), cells.end());
+  return cells_of_highest_dimension(mesh, [&](int cell) { return named.contains(cell); });
 }
 
 NodalField at_places(const Mesh& mesh, const NodalField& field, std::span<const Embedding> hosts) {

@@ -14,6 +14,8 @@ namespace comma::solver {
 std::vector<int> bulk_cells(const Model& model);
 /// Of a mesh alone: its cells of the highest dimension.
 std::vector<int> bulk_cells(const Mesh& mesh);
+/// Of some cells those of the highest dimension among them.
+std::vector<int> highest_cells(const Mesh& mesh, std::span<const int> cells);
 
 /// The field at places, each a point of the cell that is its host: row i of the result is that of `hosts[i]`. Absent
 /// without a host (`cell` -1), and of components that a node with a part in the place does not carry.
