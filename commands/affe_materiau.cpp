@@ -9,8 +9,8 @@
 #include "commands/functions/function_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/field_parts.hpp"
-#include "solver/fields/field_rows.hpp"
+#include "solver/fields/data/field_parts.hpp"
+#include "solver/fields/data/field_rows.hpp"
 #include "solver/materials/combination.hpp"
 
 namespace comma::commands {

@@ -12,10 +12,10 @@
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
+#include "solver/fields/data/field_parts.hpp"
+#include "solver/fields/data/field_rows.hpp"
+#include "solver/fields/data/row_functions.hpp"
 #include "solver/fields/field_computation.hpp"
-#include "solver/fields/field_parts.hpp"
-#include "solver/fields/field_rows.hpp"
-#include "solver/fields/row_functions.hpp"
 
 namespace comma::commands {
 

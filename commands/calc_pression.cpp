@@ -6,8 +6,8 @@
 #include "commands/analysis/same_mesh.hpp"
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
-#include "solver/fields/boundary_pressure.hpp"
 #include "solver/fields/field_computation.hpp"
+#include "solver/fields/stresses/boundary_pressure.hpp"
 #include "solver/mesh/place.hpp"
 
 namespace comma::commands {

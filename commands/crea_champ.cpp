@@ -13,10 +13,10 @@
 #include "interpreter/diagnostic.hpp"
 #include "solver/constraints/directions.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/discretisation.hpp"
-#include "solver/fields/field_algebra.hpp"
-#include "solver/fields/field_room.hpp"
-#include "solver/fields/field_rows.hpp"
+#include "solver/fields/data/field_algebra.hpp"
+#include "solver/fields/data/field_room.hpp"
+#include "solver/fields/data/field_rows.hpp"
+#include "solver/fields/points/discretisation.hpp"
 
 namespace comma::commands {
 

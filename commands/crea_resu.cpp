@@ -12,7 +12,7 @@
 #include "commands/commands.hpp"
 #include "commands/fields/field_types.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/field_room.hpp"
+#include "solver/fields/data/field_room.hpp"
 
 namespace comma::commands {
 

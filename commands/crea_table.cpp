@@ -9,9 +9,9 @@
 #include "commands/fields/field_reading.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/discretisation.hpp"
-#include "solver/fields/field_room.hpp"
-#include "solver/fields/field_rows.hpp"
+#include "solver/fields/data/field_room.hpp"
+#include "solver/fields/data/field_rows.hpp"
+#include "solver/fields/points/discretisation.hpp"
 
 namespace comma::commands {
 

@@ -5,7 +5,7 @@
 #include "commands/analysis/same_mesh.hpp"
 #include "commands/commands.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/restriction.hpp"
+#include "solver/fields/data/restriction.hpp"
 
 namespace comma::commands {
 

@@ -13,8 +13,8 @@
 #include "commands/tables/node_values.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/projection.hpp"
-#include "solver/fields/rotation.hpp"
+#include "solver/fields/data/rotation.hpp"
+#include "solver/fields/points/projection.hpp"
 #include "solver/mesh/groups.hpp"
 #include "solver/mesh/place.hpp"
 

@@ -9,9 +9,9 @@
 #include "commands/commands.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/field_parts.hpp"
-#include "solver/fields/plate_forces.hpp"
-#include "solver/fields/plate_stresses.hpp"
+#include "solver/fields/data/field_parts.hpp"
+#include "solver/fields/stresses/plate_forces.hpp"
+#include "solver/fields/stresses/plate_stresses.hpp"
 
 namespace comma::commands {
 

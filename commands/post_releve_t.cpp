@@ -15,9 +15,9 @@
 #include "commands/tables/reductions.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/equivalent.hpp"
-#include "solver/fields/rotation.hpp"
-#include "solver/fields/statistics.hpp"
+#include "solver/fields/data/rotation.hpp"
+#include "solver/fields/data/statistics.hpp"
+#include "solver/fields/stresses/equivalent.hpp"
 #include "solver/mesh/axes.hpp"
 #include "solver/mesh/groups.hpp"
 

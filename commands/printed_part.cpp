@@ -11,8 +11,8 @@
 #include "commands/fields/field_types.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/field_parts.hpp"
-#include "solver/fields/field_rows.hpp"
+#include "solver/fields/data/field_parts.hpp"
+#include "solver/fields/data/field_rows.hpp"
 #include "solver/mesh/conversion.hpp"
 
 namespace comma::commands {

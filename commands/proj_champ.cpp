@@ -10,9 +10,9 @@
 #include "commands/fields/field_types.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/field_parts.hpp"
-#include "solver/fields/field_room.hpp"
-#include "solver/fields/projection.hpp"
+#include "solver/fields/data/field_parts.hpp"
+#include "solver/fields/data/field_room.hpp"
+#include "solver/fields/points/projection.hpp"
 #include "solver/mesh/groups.hpp"
 #include "solver/mesh/place.hpp"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/fields/field_rows.hpp"
-#include "solver/fields/statistics.hpp"
+#include "solver/fields/data/field_rows.hpp"
+#include "solver/fields/data/statistics.hpp"
 
 namespace comma::commands {
 

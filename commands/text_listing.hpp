@@ -5,7 +5,7 @@
 #include <string>
 
 #include "commands/tables/fortran_format.hpp"
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 
 namespace comma::commands {
 

@@ -12,7 +12,7 @@
 #include "commands/alarms/doubt_advice.hpp"
 #include "commands/concepts.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/strains.hpp"
+#include "solver/fields/stresses/strains.hpp"
 
 namespace comma::commands {
 

@@ -16,8 +16,8 @@
 #include "interpreter/diagnostic.hpp"
 #include "solver/elements/plates/plate_axes.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/variable_fields.hpp"
-#include "solver/fields/variable_names.hpp"
+#include "solver/fields/points/variable_fields.hpp"
+#include "solver/fields/points/variable_names.hpp"
 
 namespace comma::commands {
 

@@ -8,9 +8,9 @@
 #include "commands/analysis/result_reading.hpp"
 #include "commands/analysis/same_mesh.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/beam_forces.hpp"
-#include "solver/fields/discretisation.hpp"
-#include "solver/fields/field_parts.hpp"
+#include "solver/fields/data/field_parts.hpp"
+#include "solver/fields/points/discretisation.hpp"
+#include "solver/fields/stresses/beam_forces.hpp"
 
 namespace comma::commands {
 

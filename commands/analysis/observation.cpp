@@ -15,8 +15,8 @@
 #include "commands/tables/reductions.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/field_rows.hpp"
-#include "solver/fields/row_functions.hpp"
+#include "solver/fields/data/field_rows.hpp"
+#include "solver/fields/data/row_functions.hpp"
 
 namespace comma::commands {
 

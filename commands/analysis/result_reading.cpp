@@ -11,8 +11,8 @@
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/field_computation.hpp"
+#include "solver/fields/points/variable_names.hpp"
 #include "solver/fields/relation_multipliers.hpp"
-#include "solver/fields/variable_names.hpp"
 
 namespace comma::commands {
 

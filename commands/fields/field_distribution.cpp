@@ -11,10 +11,10 @@
 #include "commands/analysis/same_mesh.hpp"
 #include "commands/model/parts_of_model.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/discretisation.hpp"
-#include "solver/fields/energies.hpp"
-#include "solver/fields/row_functions.hpp"
-#include "solver/fields/volume_distribution.hpp"
+#include "solver/fields/data/row_functions.hpp"
+#include "solver/fields/integrals/energies.hpp"
+#include "solver/fields/integrals/volume_distribution.hpp"
+#include "solver/fields/points/discretisation.hpp"
 
 namespace comma::commands {
 

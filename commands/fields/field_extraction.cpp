@@ -9,8 +9,8 @@
 #include "commands/tables/table_filter.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
+#include "solver/fields/data/field_room.hpp"
 #include "solver/fields/field_history.hpp"
-#include "solver/fields/field_room.hpp"
 #include "solver/mesh/name_finder.hpp"
 
 namespace comma::commands {

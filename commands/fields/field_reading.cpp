@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "commands/fields/field_types.hpp"
-#include "solver/fields/extrapolation.hpp"
+#include "solver/fields/points/extrapolation.hpp"
 
 namespace comma::commands {
 

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/field_rows.hpp"
+#include "solver/fields/data/field_rows.hpp"
 
 namespace comma::commands {
 

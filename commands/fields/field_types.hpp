@@ -7,7 +7,7 @@
 
 #include "commands/concepts.hpp"
 #include "interpreter/graph/call.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/data/field_algebra.hpp"
 
 namespace comma::commands {
 

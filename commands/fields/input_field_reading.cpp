@@ -3,7 +3,7 @@
 #include "commands/fields/field_types.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/input_fields.hpp"
+#include "solver/fields/points/input_fields.hpp"
 
 namespace comma::commands {
 

@@ -13,8 +13,8 @@
 #include "commands/points.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/discretisation.hpp"
-#include "solver/fields/field_parts.hpp"
+#include "solver/fields/data/field_parts.hpp"
+#include "solver/fields/points/discretisation.hpp"
 
 namespace comma::commands {
 

@@ -8,8 +8,8 @@
 #include "commands/concepts.hpp"
 #include "commands/loads/load_building.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/field_parts.hpp"
-#include "solver/fields/field_rows.hpp"
+#include "solver/fields/data/field_parts.hpp"
+#include "solver/fields/data/field_rows.hpp"
 #include "solver/loads/load_history.hpp"
 
 namespace comma::commands {

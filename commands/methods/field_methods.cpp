@@ -11,8 +11,8 @@
 #include "interpreter/values/array.hpp"
 #include "interpreter/values/exception.hpp"
 #include "interpreter/values/host_object.hpp"
-#include "solver/fields/field_algebra.hpp"
-#include "solver/fields/field_rows.hpp"
+#include "solver/fields/data/field_algebra.hpp"
+#include "solver/fields/data/field_rows.hpp"
 
 namespace comma::commands {
 

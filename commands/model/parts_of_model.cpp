@@ -8,7 +8,7 @@
 #include "commands/concepts.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/fields/extrapolation.hpp"
+#include "solver/fields/points/extrapolation.hpp"
 
 namespace comma::commands {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "interpreter/graph/call.hpp"
-#include "solver/fields/input_fields.hpp"
+#include "solver/fields/points/input_fields.hpp"
 
 namespace comma::commands {
 

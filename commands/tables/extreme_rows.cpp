@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "solver/fields/field_rows.hpp"
+#include "solver/fields/data/field_rows.hpp"
 
 namespace comma::commands {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "commands/tables/table.hpp"
-#include "solver/fields/statistics.hpp"
+#include "solver/fields/data/statistics.hpp"
 
 namespace comma::commands {
 

@@ -10,9 +10,9 @@
 #include "commands/points.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/equivalent.hpp"
-#include "solver/fields/statistics.hpp"
-#include "solver/fields/traction.hpp"
+#include "solver/fields/data/statistics.hpp"
+#include "solver/fields/stresses/equivalent.hpp"
+#include "solver/fields/stresses/traction.hpp"
 #include "solver/mesh/axes.hpp"
 #include "solver/mesh/groups.hpp"
 

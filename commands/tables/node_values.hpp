@@ -8,7 +8,7 @@
 
 #include "commands/tables/table.hpp"
 #include "interpreter/graph/call.hpp"
-#include "solver/fields/rotation.hpp"
+#include "solver/fields/data/rotation.hpp"
 
 namespace comma::commands {
 

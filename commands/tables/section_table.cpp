@@ -6,7 +6,7 @@
 #include "commands/concepts.hpp"
 #include "commands/model/angles.hpp"
 #include "commands/model/parts_of_model.hpp"
-#include "solver/fields/plane_section.hpp"
+#include "solver/fields/integrals/plane_section.hpp"
 #include "solver/mesh/place.hpp"
 
 namespace comma::commands {

@@ -7,7 +7,7 @@
 #include <Eigen/Dense>
 
 #include "solver/contact/pairing.hpp"
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 
 namespace comma::solver {
 

@@ -19,8 +19,8 @@
 #include "solver/elements/solids/imposed_strains.hpp"
 #include "solver/elements/sparse_pattern.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/field_parts.hpp"
-#include "solver/fields/plate_stresses.hpp"
+#include "solver/fields/data/field_parts.hpp"
+#include "solver/fields/stresses/plate_stresses.hpp"
 #include "solver/model/stress_names.hpp"
 
 namespace comma::solver {

@@ -10,7 +10,7 @@
 #include <Eigen/Dense>
 
 #include "solver/elements/slender/section.hpp"
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 #include "solver/linear/linear_solver.hpp"
 #include "solver/linear/unsymmetric_solver.hpp"
 #include "solver/loads/load.hpp"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
-#include "solver/fields/field_parts.hpp"
+#include "solver/fields/data/field_parts.hpp"
 
 namespace comma::solver {
 namespace {

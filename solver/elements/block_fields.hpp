@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "solver/elements/element_block.hpp"
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 #include "solver/mesh/mesh.hpp"
 
 namespace comma::solver {

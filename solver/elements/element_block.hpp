@@ -11,7 +11,7 @@
 #include "solver/elements/slender/section.hpp"
 #include "solver/elements/solids/imposed_strains.hpp"
 #include "solver/elements/sparse_pattern.hpp"
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 #include "solver/materials/elasticity.hpp"
 #include "solver/model/behaviour.hpp"
 

@@ -6,13 +6,13 @@
 
 #include "solver/elements/energy_parts.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/energies.hpp"
-#include "solver/fields/extrapolation.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/data/field_algebra.hpp"
+#include "solver/fields/data/field_parts.hpp"
 #include "solver/fields/field_computation.hpp"
-#include "solver/fields/field_parts.hpp"
-#include "solver/fields/loading_indicators.hpp"
+#include "solver/fields/integrals/energies.hpp"
 #include "solver/fields/nodal_forces.hpp"
+#include "solver/fields/points/extrapolation.hpp"
+#include "solver/fields/stresses/loading_indicators.hpp"
 
 namespace comma::solver {
 

@@ -9,17 +9,17 @@
 
 #include "solver/elements/slender/rotating_beam.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/beam_forces.hpp"
-#include "solver/fields/beam_stresses.hpp"
-#include "solver/fields/equivalent.hpp"
-#include "solver/fields/extrapolation.hpp"
-#include "solver/fields/field_algebra.hpp"
-#include "solver/fields/field_parts.hpp"
+#include "solver/fields/data/field_algebra.hpp"
+#include "solver/fields/data/field_parts.hpp"
 #include "solver/fields/nodal_forces.hpp"
-#include "solver/fields/plate_forces.hpp"
-#include "solver/fields/strains.hpp"
-#include "solver/fields/surface_stresses.hpp"
-#include "solver/fields/variable_fields.hpp"
+#include "solver/fields/points/extrapolation.hpp"
+#include "solver/fields/points/variable_fields.hpp"
+#include "solver/fields/stresses/beam_forces.hpp"
+#include "solver/fields/stresses/beam_stresses.hpp"
+#include "solver/fields/stresses/equivalent.hpp"
+#include "solver/fields/stresses/plate_forces.hpp"
+#include "solver/fields/stresses/strains.hpp"
+#include "solver/fields/stresses/surface_stresses.hpp"
 
 namespace comma::solver {
 

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "solver/elements/assembler.hpp"
-#include "solver/fields/continuum_points.hpp"
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
+#include "solver/fields/points/continuum_points.hpp"
 #include "solver/nonlinear/static_analysis.hpp"
 
 namespace comma::solver {

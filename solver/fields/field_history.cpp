@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "solver/error.hpp"
-#include "solver/fields/field_algebra.hpp"
-#include "solver/fields/field_rows.hpp"
+#include "solver/fields/data/field_algebra.hpp"
+#include "solver/fields/data/field_rows.hpp"
 
 namespace comma::solver {
 

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 
 namespace comma::solver {
 

@@ -5,13 +5,13 @@
 #include <optional>
 #include <ranges>
 
-#include "solver/fields/extrapolation.hpp"
+#include "solver/fields/data/field_parts.hpp"
 #include "solver/fields/field_computation.hpp"
-#include "solver/fields/field_parts.hpp"
 #include "solver/fields/nodal_forces.hpp"
-#include "solver/fields/plate_forces.hpp"
-#include "solver/fields/plate_stresses.hpp"
-#include "solver/fields/strains.hpp"
+#include "solver/fields/points/extrapolation.hpp"
+#include "solver/fields/stresses/plate_forces.hpp"
+#include "solver/fields/stresses/plate_stresses.hpp"
+#include "solver/fields/stresses/strains.hpp"
 
 namespace comma::solver {
 

@@ -7,7 +7,7 @@
 
 #include <Eigen/SparseQR>
 
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 #include "solver/loads/load.hpp"
 
 namespace comma::solver {

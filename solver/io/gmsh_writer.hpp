@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 
 namespace comma::solver {
 

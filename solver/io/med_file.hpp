@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 #include "solver/mesh/mesh.hpp"
 
 namespace comma::solver {

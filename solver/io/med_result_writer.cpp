@@ -9,7 +9,7 @@
 #include <set>
 
 #include "solver/error.hpp"
-#include "solver/fields/field_rows.hpp"
+#include "solver/fields/data/field_rows.hpp"
 #include "solver/io/med_file.hpp"
 #include "solver/io/med_localization.hpp"
 #include "solver/io/med_mesh_writer.hpp"

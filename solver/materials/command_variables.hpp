@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 #include "solver/functions/function.hpp"
 #include "solver/materials/property.hpp"
 

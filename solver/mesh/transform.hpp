@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 #include "solver/mesh/mesh.hpp"
 
 namespace comma::solver {

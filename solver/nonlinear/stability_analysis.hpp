@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 #include "solver/model/component.hpp"
 
 namespace comma::solver {

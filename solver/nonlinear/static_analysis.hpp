@@ -10,7 +10,7 @@
 #include "solver/contact/definition.hpp"
 #include "solver/contact/doubts.hpp"
 #include "solver/elements/slender/section.hpp"
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 #include "solver/linear/linear_solver.hpp"
 #include "solver/loads/load.hpp"
 #include "solver/materials/material.hpp"

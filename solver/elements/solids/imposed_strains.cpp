@@ -8,7 +8,7 @@
 
 #include "solver/elements/slender/slender_forces.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 
 namespace comma::solver {
 

@@ -11,7 +11,7 @@
 #include "solver/elements/assembler_blocks.hpp"
 #include "solver/elements/block_fields.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/plate_stresses.hpp"
+#include "solver/fields/stresses/plate_stresses.hpp"
 
 namespace comma::solver {
 

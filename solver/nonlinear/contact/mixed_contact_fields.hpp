@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "solver/contact/contact_field.hpp"
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 #include "solver/nonlinear/contact/faced_contact.hpp"
 
 namespace comma::solver {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
-#include "solver/fields/continuum_points.hpp"
-#include "solver/fields/tensor_reader.hpp"
+#include "solver/fields/points/continuum_points.hpp"
+#include "solver/fields/stresses/tensor_reader.hpp"
 
 namespace comma::solver {
 namespace {

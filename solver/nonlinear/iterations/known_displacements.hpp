@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 #include "solver/model/model.hpp"
 
 namespace comma::solver {

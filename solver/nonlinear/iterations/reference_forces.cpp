@@ -11,7 +11,7 @@
 #include "solver/elements/quadrature.hpp"
 #include "solver/elements/solids/corner_unknowns.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/continuum_points.hpp"
+#include "solver/fields/points/continuum_points.hpp"
 
 namespace comma::solver {
 namespace {

@@ -8,7 +8,7 @@
 #include "solver/contact/straight_faces.hpp"
 #include "solver/contact/watched_zones.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/field_algebra.hpp"
+#include "solver/fields/data/field_algebra.hpp"
 #include "solver/nonlinear/contact/mixed_contact_fields.hpp"
 #include "solver/nonlinear/iterations/known_displacements.hpp"
 #include "solver/nonlinear/steps/static_run.hpp"

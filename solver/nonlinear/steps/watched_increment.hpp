@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "solver/fields/field.hpp"
+#include "solver/fields/data/field.hpp"
 #include "solver/mesh/mesh.hpp"
 #include "solver/nonlinear/steps/step_sequence.hpp"
 

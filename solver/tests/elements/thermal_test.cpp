@@ -4,7 +4,7 @@
 #include <catch2/catch.hpp>
 
 #include "sample_meshes.hpp"
-#include "solver/fields/strains.hpp"
+#include "solver/fields/stresses/strains.hpp"
 #include "solver/tests/exactly.hpp"
 
 using namespace comma::solver;

@@ -4,7 +4,7 @@
 
 #include "solver/elements/plates/plate_axes.hpp"
 #include "solver/error.hpp"
-#include "solver/fields/energies.hpp"
+#include "solver/fields/integrals/energies.hpp"
 #include "solver/linear/symmetric_eigen.hpp"
 #include "solver/tests/elements/sample_meshes.hpp"
 #include "solver/tests/exactly.hpp"

@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "solver/error.hpp"
-#include "solver/fields/energies.hpp"
+#include "solver/fields/integrals/energies.hpp"
 #include "solver/tests/elements/load_scene.hpp"
 #include "solver/tests/exactly.hpp"
 
