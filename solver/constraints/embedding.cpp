@@ -13,27 +13,12 @@
 #include "solver/elements/cell_quadrature.hpp"
 #include "solver/error.hpp"
 #include "solver/mesh/box_tree.hpp"
+#include "solver/mesh/conversion.hpp"
 #include "solver/mesh/place.hpp"
 
 namespace comma::solver {
 
 namespace {
-
-/// The cell of the corners alone.
-CellType straight_type(CellType type) {
-  switch (dimension(type)) {
-    case 0:
-      return type;
-    case 1:
-      return CellType::seg2;
-    case 2:
-      return corner_count(type) == 3 ? CellType::tria3 : CellType::quad4;
-    default:
-      break;
-  }
-  constexpr CellType solids[] = {CellType::tetra4, CellType::pyram5, CellType::penta6};
-  return corner_count(type) == 8 ? CellType::hexa8 : solids[corner_count(type) - 4];
-}
 
 /// A shape function's value this small at a host's node is rounding: the point lies on the opposite facet.
 constexpr double negligible_weight = 1e-12;

@@ -39,38 +39,12 @@ CellType quadratic(CellType type) {
   }
 }
 
-CellType linear(CellType type) {
-  switch (type) {
-    case seg3:
-    case seg4:
-      return seg2;
-    case tria6:
-    case tria7:
-      return tria3;
-    case quad8:
-    case quad9:
-      return quad4;
-    case tetra10:
-      return tetra4;
-    case pyram13:
-      return pyram5;
-    case penta15:
-    case penta18:
-      return penta6;
-    case hexa20:
-    case hexa27:
-      return hexa8;
-    default:
-      return type;
-  }
-}
-
 CellType target_of(CellType type, Conversion conversion) {
   switch (conversion) {
     case Conversion::to_quadratic:
       return quadratic(type);
     case Conversion::to_linear:
-      return linear(type);
+      return straight_type(type);
     case Conversion::hexa20_to_27:
       return type == hexa20 ? hexa27 : type == quad8 ? quad9 : type;
     case Conversion::penta15_to_18:
@@ -315,6 +289,32 @@ std::vector<int> by_dimension(const Mesh& mesh) {
 }
 
 }  // namespace
+
+CellType straight_type(CellType type) {
+  switch (type) {
+    case seg3:
+    case seg4:
+      return seg2;
+    case tria6:
+    case tria7:
+      return tria3;
+    case quad8:
+    case quad9:
+      return quad4;
+    case tetra10:
+      return tetra4;
+    case pyram13:
+      return pyram5;
+    case penta15:
+    case penta18:
+      return penta6;
+    case hexa20:
+    case hexa27:
+      return hexa8;
+    default:
+      return type;
+  }
+}
 
 Mesh converted(const Mesh& mesh, std::span<const int> cells, Conversion conversion) {
   Mesh result = mesh;

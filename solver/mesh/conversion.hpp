@@ -9,6 +9,9 @@
 
 namespace comma::solver {
 
+/// The type of a cell with the corners alone.
+CellType straight_type(CellType type);
+
 /// What becomes of a cell's type.
 enum class Conversion {
   to_quadratic,   ///< SEG2, TRIA3, QUAD4, TETRA4, PYRAM5, PENTA6, HEXA8 get mid-edge nodes

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "solver/error.hpp"
+#include "solver/mesh/conversion.hpp"
 #include "solver/mesh/new_names.hpp"
 #include "solver/mesh/place.hpp"
 #include "solver/mesh/reference_element.hpp"
@@ -95,18 +96,8 @@ const std::map<CellType, Cut>& cuts() {
   return table;
 }
 
-CellType of_corners(CellType type) {
-  using enum CellType;
-  constexpr std::array linear = {poi1, seg2, tria3, quad4, tetra4, penta6, hexa8};
-  const auto is_alike = [&](CellType each) {
-    return dimension(each) == dimension(type) && corner_count(each) == corner_count(type);
-  };
-  const auto* found = std::ranges::find_if(linear, is_alike);
-  return found == linear.end() ? type : *found;
-}
-
 const Cut& cut_of(const Mesh& mesh, int cell) {
-  const auto found = cuts().find(of_corners(mesh.cell_types[cell]));
+  const auto found = cuts().find(straight_type(mesh.cell_types[cell]));
   if (found != cuts().end()) return found->second;
   throw Error("unsupported",
               fmt::format("cell {} is a {}, which is not cut into smaller ones", mesh.cell_name(cell),
@@ -143,7 +134,7 @@ class NodesWithin {
   using Shares = std::vector<std::pair<int, int>>;
   static Shares shares(CellType type, std::span<const int> nodes, const ReferencePoint& point) {
     constexpr double whole = 192.0;
-    const Eigen::VectorXd values = shape_functions(of_corners(type), point);
+    const Eigen::VectorXd values = shape_functions(straight_type(type), point);
     Shares result;
     for (int corner = 0; corner < corner_count(type); ++corner)
       if (const auto share = static_cast<int>(std::lround(whole * values[corner])); share != 0)
@@ -184,20 +175,19 @@ std::vector<int> corners_of_pieces(const Mesh& mesh, int cell, NodesWithin& node
   return corners;
 }
 
-/// A node of a piece beyond its corners; `local` and `own` are the numbers of these in the cell that is cut and in the
-/// mesh. Edges and faces of pieces inside a solid are straight, as in Code_Aster 17.3.
-int further_node(const Mesh& mesh, int cell, std::span<const int> local, std::span<const int> own,
+/// A node of a piece beyond its corners, which lie at `corners` of the cell that is cut and are the nodes `own`. Edges
+/// and faces of pieces inside a solid are straight, as in Code_Aster 17.3.
+int further_node(const Mesh& mesh, int cell, std::span<const ReferencePoint> corners, std::span<const int> own,
                  const ReferencePoint& further, NodesWithin& nodes) {
-  const CellType type = mesh.cell_types[cell], linear = of_corners(type);
+  const CellType type = mesh.cell_types[cell], linear = straight_type(type);
   const Eigen::VectorXd weights = shape_functions(linear, further);
-  const auto points = reference_corners(type, cut_of(mesh, cell));
   ReferencePoint point{};
   constexpr double rounding = 1e-12;  // shape functions are 0 or no less than a sixth at nodes
   int weighing = 0;
-  for (std::size_t a = 0; a < local.size(); ++a) {
+  for (std::size_t a = 0; a < corners.size(); ++a) {
     const double weight = weights[static_cast<Eigen::Index>(a)];
     weighing += std::abs(weight) > rounding ? 1 : 0;
-    for (std::size_t j = 0; j < 3; ++j) point[j] += weight * points[static_cast<std::size_t>(local[a])][j];
+    for (std::size_t j = 0; j < 3; ++j) point[j] += weight * corners[a][j];
   }
   const auto shares = NodesWithin::shares(type, mesh.cell(cell), point);
   const bool is_inside = dimension(type) == 3 && static_cast<int>(shares.size()) == corner_count(type);
@@ -211,12 +201,18 @@ int further_node(const Mesh& mesh, int cell, std::span<const int> local, std::sp
 /// The nodes of each piece of a cell, from those at the corners of all of them.
 std::vector<std::vector<int>> pieces_of(const Mesh& mesh, int cell, std::span<const int> corners, NodesWithin& nodes) {
   std::vector<std::vector<int>> pieces;
-  for (const std::vector<int>& local : cut_of(mesh, cell).pieces) {
+  const Cut& cut = cut_of(mesh, cell);
+  const auto all_points = reference_corners(mesh.cell_types[cell], cut);
+  for (const std::vector<int>& local : cut.pieces) {
     std::vector<int> own;
-    for (const int corner : local) own.push_back(corners[static_cast<std::size_t>(corner)]);
+    std::vector<ReferencePoint> points;
+    for (const int corner : local) {
+      own.push_back(corners[static_cast<std::size_t>(corner)]);
+      points.push_back(all_points[static_cast<std::size_t>(corner)]);
+    }
     const std::vector<int> ends = own;
     for (const ReferencePoint& further : reference_nodes(mesh.cell_types[cell]).subspan(local.size()))
-      own.push_back(further_node(mesh, cell, local, ends, further, nodes));
+      own.push_back(further_node(mesh, cell, points, ends, further, nodes));
     pieces.push_back(std::move(own));
   }
   return pieces;
@@ -250,9 +246,9 @@ Mesh refined(const Mesh& mesh) {
   const auto all = static_cast<std::size_t>(mesh.cell_count());
   std::vector<std::vector<int>> corners(all), pieces(all);
   std::vector<std::vector<std::vector<int>>> nodes_of_pieces(all);
-  for (const int cell : lines_first(mesh))
-    corners[static_cast<std::size_t>(cell)] = corners_of_pieces(mesh, cell, within_cells);
-  for (const int cell : lines_first(mesh))
+  const std::vector<int> order = lines_first(mesh);
+  for (const int cell : order) corners[static_cast<std::size_t>(cell)] = corners_of_pieces(mesh, cell, within_cells);
+  for (const int cell : order)
     nodes_of_pieces[static_cast<std::size_t>(cell)] =
         pieces_of(mesh, cell, corners[static_cast<std::size_t>(cell)], within_cells);
   for (int cell = 0; cell < mesh.cell_count(); ++cell)
