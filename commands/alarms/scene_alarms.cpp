@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <numeric>
 #include <set>
 #include <variant>
 #include <vector>
@@ -13,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "commands/alarms/start_alarms.hpp"
+#include "commands/analysis/behaviour_reading.hpp"
 #include "commands/concepts.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
@@ -167,11 +167,7 @@ void warn_of_cells_without_behaviour(const interpreter::Call& call, const solver
 void warn_of_small_bars(const interpreter::Call& call, const solver::Model& model, Context& context) {
   for (const interpreter::Keywords& keywords : call.factors("COMPORTEMENT")) {
     if (keywords.text("DEFORMATION") != "GROT_GDEP") continue;
-    std::vector<int> cells = selected_cells(keywords, *model.mesh);
-    if (!names_a_place(keywords, cell_places)) {
-      cells.resize(model.formulations.size());
-      std::iota(cells.begin(), cells.end(), 0);
-    }
+    const std::vector<int> cells = cells_of_behaviour(keywords, *model.mesh);
     const auto bar = std::ranges::find_if(
         cells, [&](int cell) { return solver::is_bar(model.formulations[static_cast<std::size_t>(cell)]); });
     if (bar == cells.end()) continue;

@@ -68,6 +68,13 @@ solver::CellBehaviour behaviour_on(solver::CellBehaviour behaviour, const solver
 
 }  // namespace
 
+std::vector<int> cells_of_behaviour(const Keywords& occurrence, const solver::Mesh& mesh) {
+  if (names_a_place(occurrence, cell_places)) return selected_cells(occurrence, mesh);
+  std::vector<int> all(static_cast<std::size_t>(mesh.cell_count()));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
 std::shared_ptr<const solver::BehaviourOfCells> behaviours_of(const Keywords& call, const solver::Model& model,
                                                               const solver::InitialState* initial, bool has_variables) {
   const solver::Mesh& mesh = *model.mesh;
@@ -76,12 +83,7 @@ std::shared_ptr<const solver::BehaviourOfCells> behaviours_of(const Keywords& ca
     (*result)[static_cast<std::size_t>(cell)] = behaviour_on({}, model, cell, initial, has_variables);
   for (const Keywords& keywords : call.factors("COMPORTEMENT")) {
     const solver::CellBehaviour behaviour = behaviour_of(keywords);
-    std::vector<int> cells = selected_cells(keywords, mesh);
-    if (!keywords.has("GROUP_MA") && !keywords.has("MAILLE")) {
-      cells.resize(result->size());
-      std::iota(cells.begin(), cells.end(), 0);
-    }
-    for (const int cell : cells)
+    for (const int cell : cells_of_behaviour(keywords, mesh))
       (*result)[static_cast<std::size_t>(cell)] = behaviour_on(behaviour, model, cell, initial, has_variables);
   }
   if (std::ranges::all_of(*result, [](const auto& each) { return each == solver::CellBehaviour{}; })) return nullptr;

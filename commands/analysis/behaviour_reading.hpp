@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "interpreter/graph/call.hpp"
 #include "solver/model/behaviour.hpp"
@@ -9,6 +10,9 @@
 #include "solver/nonlinear/static_analysis.hpp"
 
 namespace comma::commands {
+
+/// The cells of an occurrence of COMPORTEMENT: all where it names none.
+std::vector<int> cells_of_behaviour(const interpreter::Keywords& occurrence, const solver::Mesh& mesh);
 
 /// One behaviour a cell by the occurrences of COMPORTEMENT, the later winning; null where all are linear. From an
 /// initial state elasticity adds up, but for solids in small strains to which it gives no stresses: theirs are those of
