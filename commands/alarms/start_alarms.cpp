@@ -15,6 +15,7 @@
 #include "commands/concepts.hpp"
 #include "interpreter/diagnostic.hpp"
 #include "solver/elements/plates/plate_axes.hpp"
+#include "solver/elements/slender/slender_member.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/points/variable_fields.hpp"
 #include "solver/fields/points/variable_names.hpp"
@@ -41,7 +42,8 @@ double strain_of_bars(const solver::StaticProblem& problem, const solver::FieldI
     if (!solver::is_bar(problem.model->formulations[static_cast<std::size_t>(cell)])) continue;
     const auto* isotropic = isotropic_of(problem, cell);
     if (isotropic == nullptr) continue;
-    const double strain = solver::inelastic_axial_strain(*isotropic, solver::middle_point(input, cell));
+    const double strain =
+        solver::inelastic_axial_strain(*isotropic, solver::middle_of(*input.model.mesh, cell, input.state));
     if (strain != 0.0) return strain;
   }
   return 0.0;
@@ -109,7 +111,7 @@ std::optional<ElasticVolume> elastic_volume(const solver::StaticProblem& problem
                                             int cell) {
   const auto* isotropic = isotropic_of(problem, cell);
   if (isotropic == nullptr) return std::nullopt;
-  const solver::MaterialPoint at = solver::middle_point(input, cell);
+  const solver::MaterialPoint at = solver::middle_of(*input.model.mesh, cell, input.state);
   const solver::IsotropicModuli moduli = solver::moduli(*isotropic, at);
   return ElasticVolume{moduli.young / (3.0 * (1.0 - 2.0 * moduli.poisson)),
                        3.0 * solver::inelastic_axial_strain(*isotropic, at)};

@@ -14,17 +14,6 @@ CellMaterial material_of(const FieldInput& input, int cell) {
   return cell_material(input.model, input.materials, input.properties, cell);
 }
 
-MaterialPoint middle_point(const FieldInput& input, int cell) {
-  constexpr std::array<double, 2> half = {0.5, 0.5};
-  const auto nodes = input.model.mesh->cell(cell);
-  MaterialPoint at;
-  input.state.sample(cell, nodes, half, VariableState::all_points, at);
-  const Point& a = input.model.mesh->nodes[nodes[0]];
-  const Point& b = input.model.mesh->nodes[nodes[1]];
-  at.place({0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2])});
-  return at;
-}
-
 bool ContinuumPoints::covers(int cell) const {
   const int body = continuum_dimension(model_.formulations[cell]);
   return body > 0 && dimension(model_.mesh->cell_types[cell]) == body;

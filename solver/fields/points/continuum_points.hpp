@@ -25,9 +25,6 @@ struct FieldInput {
 /// The material of a cell with its axes. Throws Error `missing-material` naming the cell.
 CellMaterial material_of(const FieldInput& input, int cell);
 
-/// What the material knows at the middle of a cell of two nodes.
-MaterialPoint middle_point(const FieldInput& input, int cell);
-
 /// Which points: those of the stiffness, where stresses live, or those of the mass.
 enum class PointFamily : std::uint8_t { stiffness, mass };
 

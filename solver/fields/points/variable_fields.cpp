@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "solver/elements/slender/slender_member.hpp"
 #include "solver/error.hpp"
 
 namespace comma::solver {
@@ -25,8 +26,8 @@ ElementField at_points(const FieldInput& input, std::string quantity, std::vecto
     field.starts.push_back(field.starts.back() + static_cast<int>(count));
     field.values.resize(static_cast<std::size_t>(field.starts.back()) * width, absent);
     for (std::size_t g = 0; g < count; ++g) {
-      const MaterialPoint at =
-          of_bar ? middle_point(input, cell) : points.material_point(cell, input.state, static_cast<int>(g));
+      const MaterialPoint at = of_bar ? middle_of(*input.model.mesh, cell, input.state)
+                                      : points.material_point(cell, input.state, static_cast<int>(g));
       write(cell, at, field.values.data() + (static_cast<std::size_t>(field.starts[cell]) + g) * width);
     }
   }
@@ -58,10 +59,6 @@ void write_strains(const OrthotropicElasticity& material, const MaterialPoint& a
   for (std::size_t i = 0; i < 3; ++i) target[i] = thermal_strain(material.expansion[i], at);
   target[3] = target[4] = 0.0;
 }
-
-}  // namespace
-
-namespace {
 
 using NamedVariable = std::pair<const char*, std::optional<Parameter>>;
 

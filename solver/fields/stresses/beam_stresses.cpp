@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "solver/elements/geometric_stiffness.hpp"
+#include "solver/elements/slender/slender_member.hpp"
 #include "solver/elements/slender/varying_section.hpp"
 #include "solver/error.hpp"
 #include "solver/model/stress_names.hpp"
@@ -120,7 +121,7 @@ ElementField extreme_stresses(const FieldInput& input, const ElementField& force
 ElementField generalised_strains(const FieldInput& input, const ElementField& forces, const ImposedStrains* imposed) {
   return on_members(input, forces, "EPSI_R", {"EPXX", "GAXY", "GAXZ", "GAT", "KY", "KZ"},
                     [&](int cell, const BeamSection& section, const SectionForces& f, double* target) {
-                      const MaterialPoint at = middle_point(input, cell);
+                      const MaterialPoint at = middle_of(*input.model.mesh, cell, input.state);
                       const Eigen::Vector3d initial = initial_strain(input, imposed, cell);
                       const IsotropicElasticity& material = isotropic(input, cell);
                       const IsotropicModuli m = moduli(material, at);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <Eigen/Eigenvalues>
 
+#include "solver/elements/slender/slender_member.hpp"
 #include "solver/error.hpp"
 #include "solver/fields/stresses/beam_stresses.hpp"
 #include "solver/model/stress_names.hpp"
@@ -125,7 +126,7 @@ double bar_strain(const FieldInput& input, int cell, const DisplacementGradients
     throw Error("unsupported",
                 fmt::format("the bar on cell {} has an anisotropic material", input.model.mesh->cell_name(cell)));
   }
-  return strain - inelastic_axial_strain(*material, middle_point(input, cell));
+  return strain - inelastic_axial_strain(*material, middle_of(*input.model.mesh, cell, input.state));
 }
 
 }  // namespace
@@ -195,7 +196,7 @@ void take_elongations_by_forces(const FieldInput& input, const ElementField& str
     const auto& material = std::get<IsotropicElasticity>(*material_of(input, cell).elasticity);
     double& strain = field.values[static_cast<std::size_t>(field.starts[cell]) * field.components.size()];
     // What forces elongate has the strain of the command variables in it.
-    const double of_variables = inelastic_axial_strain(material, middle_point(input, cell));
+    const double of_variables = inelastic_axial_strain(material, middle_of(*input.model.mesh, cell, input.state));
     strain -= by_forces.points(cell) > 0 ? by_forces.at(cell, 0, 0) - of_variables : absent;
   }
 }
