@@ -174,9 +174,10 @@ FieldPtr from_pieces(const Call& call, const FieldType& type, interpreter::Diagn
     }
   }
   product->field = empty_field(call, *product, type, std::move(components));
-  std::vector<std::vector<int>> where;
-  for (const Keywords& occurrence : call.factors("ASSE")) where.push_back(places(occurrence, *product, type));
-  for (std::size_t i = 0; i < pieces.size(); ++i) solver::put_piece(product->field, pieces[i], &where[i]);
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const auto where = places(call.factors("ASSE")[i], *product, type);
+    solver::put_piece(product->field, pieces[i], &where);
+  }
   return product;
 }
 

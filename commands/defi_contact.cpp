@@ -362,12 +362,10 @@ void set_geometry_update(const Call& call, solver::ContactDefinition& definition
 void check_smoothing(const Call& call) {
   if (call.text("LISSAGE") != "OUI") return;
   for (const Keywords& zone : call.factors("ZONE"))
-    for (const char* keyword : {"VECT_MAIT"}) {
-      if (!zone.has(keyword) || zone.text(keyword) == "AUTO") continue;
+    if (zone.has("VECT_MAIT") && zone.text("VECT_MAIT") != "AUTO")
       throw DiagnosticError("contradictory-keywords",
-                            fmt::format("DEFI_CONTACT: LISSAGE='OUI' smooths normals, and {} gives them", keyword),
-                            zone.span_of(keyword), "leave out one of the two");
-    }
+                            "DEFI_CONTACT: LISSAGE='OUI' smooths normals, and VECT_MAIT gives them",
+                            zone.span_of("VECT_MAIT"), "leave out one of the two");
 }
 
 solver::ContactDefinition contact(const Call& call, const solver::Model& model) {

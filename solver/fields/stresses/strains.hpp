@@ -19,9 +19,8 @@ enum class StrainKind : std::uint8_t {
 
 /// Strains at the Gauss points of the stresses: EPXX EPYY EPZZ EPXY, with EPXZ EPYZ where the model has solids; tensor
 /// components (half the shear angles). Bars have EPXX, along themselves, and a model of bars alone no other. In plane
-/// stress EPZZ is that of the elastic
-/// law without stress across the plane. Throws Error `incompatible-field` where a node of a continuum or bar has no
-/// displacement.
+/// stress EPZZ is that of the elastic law without stress across the plane. Throws Error `incompatible-field` where a
+/// node of a continuum or bar has no displacement.
 ElementField strains(const FieldInput& input, const NodalField& displacement, StrainKind kind);
 
 /// EPSP: what is left of the mechanical strain of a displacement when the elastic strain of the stresses (SIEF_ELGA) is
