@@ -14,6 +14,7 @@
 #include "solver/elements/element_block.hpp"
 #include "solver/elements/external_forces.hpp"
 #include "solver/elements/geometric_stiffness.hpp"
+#include "solver/elements/naming_cell.hpp"
 #include "solver/elements/slender/inelastic_bar.hpp"
 #include "solver/elements/slender/rotating_beam.hpp"
 #include "solver/elements/solids/imposed_strains.hpp"
@@ -145,12 +146,9 @@ SymmetricMatrix Assembler::geometric_stiffness(const Eigen::VectorXd& u) const {
     const int cell = block->cells().front();
     const Formulation formulation = model_.formulations[cell];
     if (continuum_dimension(formulation) == 0 || mixed_field_count(formulation) > 0) {
-      try {
+      naming_cell(*model_.mesh, cell, [&] {
         block->add_geometric_stiffness(stresses_in(*block, u, imposed_.get()), state_, starts, matrix.valuePtr());
-      } catch (const Error& error) {
-        throw Error(error.code(), fmt::format("{} (cell {})", error.what(), model_.mesh->cell_name(cell)),
-                    error.hint());
-      }
+      });
       continue;
     }
     if (block->stress_names().size() > solid_stress_count)

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/elements/naming_cell.hpp"
 #include "solver/elements/slender/slender_member.hpp"
 #include "solver/elements/translation.hpp"
 #include "solver/error.hpp"
@@ -299,18 +300,15 @@ class InelasticBar final : public ElementBlock {
             &elasticity,      &plasticity, solver::is_constant(elasticity, plasticity, behaviour_.relation)};
   }
 
-  /// Command variables count by their mean over the two nodes. An error says in which cell.
+  /// Command variables count by their mean over the two nodes.
   BarMaterial material(int element, const VariableState& state) const {
     const auto index = static_cast<std::size_t>(element);
     const Member& own = members_[index];
-    try {
+    return naming_cell(mesh_, cells_[index], [&]() -> BarMaterial {
       const MaterialPoint at = middle_of(mesh_, cells_[index], state);
       return {plastic_point(*own.elasticity, *own.plasticity, behaviour_.relation, at),
               state.empty() ? 0.0 : inelastic_axial_strain(*own.elasticity, at)};
-    } catch (const Error& error) {
-      throw Error(error.code(), fmt::format("{} (cell {})", error.what(), mesh_.cell_name(cells_[index])),
-                  error.hint());
-    }
+    });
   }
 
   Eigen::Vector3d centre(int element) const {

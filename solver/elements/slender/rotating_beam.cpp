@@ -8,6 +8,7 @@
 #include <unsupported/Eigen/AutoDiff>
 
 #include "solver/elements/geometric_stiffness.hpp"
+#include "solver/elements/naming_cell.hpp"
 #include "solver/elements/slender/beam_points.hpp"
 #include "solver/elements/slender/beam_stiffness.hpp"
 #include "solver/elements/slender/slender_member.hpp"
@@ -246,12 +247,10 @@ class RotatingBeam final : public ElementBlock {
   Now material(int element, const VariableState& state) const {
     const int cell = cells_[static_cast<std::size_t>(element)];
     const IsotropicElasticity& elasticity = *members_[static_cast<std::size_t>(element)].material;
-    try {
+    return naming_cell(mesh_, cell, [&]() -> Now {
       const MaterialPoint at = middle_of(mesh_, cell, state);
       return {moduli(elasticity, at), state.empty() ? 0.0 : inelastic_axial_strain(elasticity, at)};
-    } catch (const Error& error) {
-      throw Error(error.code(), fmt::format("{} (cell {})", error.what(), mesh_.cell_name(cell)), error.hint());
-    }
+    });
   }
 
   Eigen::Vector3d initial_chord(int cell) const {

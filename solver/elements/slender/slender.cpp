@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "solver/elements/energy_parts.hpp"
+#include "solver/elements/naming_cell.hpp"
 #include "solver/elements/slender/beam_points.hpp"
 #include "solver/elements/slender/slender_member.hpp"
 #include "solver/elements/slender/varying_section.hpp"
@@ -318,15 +319,9 @@ class SlenderBlock final : public ElementBlock {
     });
   }
 
-  /// Runs f; its errors name the cell.
-  template <class F>
-  auto named(int element, F&& f) const {
-    try {
-      return f();
-    } catch (const Error& error) {
-      throw Error(error.code(), fmt::format("{} (cell {})", error.what(), mesh_.cell_name(cells_[element])),
-                  error.hint());
-    }
+  template <class Compute>
+  auto named(int element, Compute&& compute) const {
+    return naming_cell(mesh_, cells_[element], compute);
   }
 
   const Eigen::Matrix3d& axes(int element) const { return members_[element].axes; }

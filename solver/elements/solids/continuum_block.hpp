@@ -13,6 +13,7 @@
 
 #include "solver/elements/element_batches.hpp"
 #include "solver/elements/element_block.hpp"
+#include "solver/elements/naming_cell.hpp"
 #include "solver/elements/quadrature.hpp"
 #include "solver/elements/translation.hpp"
 #include "solver/error.hpp"
@@ -213,16 +214,11 @@ class ContinuumBlock : public ElementBlock {
       const bool strained = used.strained(state);
       if (used.constant && !strained) return;
       const MaterialPoint at = block.material_point(element, g, x, state);
-      try {
+      naming_cell(block.mesh_, block.cells_[element], [&] {
         if (strained) inelastic = inelastic_strain(used.material, at).template head<strains>();
-        if (used.constant) return;
-        own = make_law(used.material, block.formulation_, at);
-      } catch (const Error& error) {
-        throw Error(error.code(),
-                    fmt::format("{} (cell {})", error.what(), block.mesh_.cell_name(block.cells_[element])),
-                    error.hint());
-      }
-      law = &own;
+        if (!used.constant) own = make_law(used.material, block.formulation_, at);
+      });
+      if (!used.constant) law = &own;
     }
     Behaviour(const Behaviour&) = delete;
     Behaviour& operator=(const Behaviour&) = delete;

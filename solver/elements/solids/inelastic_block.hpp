@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "solver/elements/naming_cell.hpp"
 #include "solver/elements/solids/continuum_block.hpp"
 #include "solver/materials/behaviour/large_strain.hpp"
 #include "solver/materials/behaviour/point_law.hpp"
@@ -208,7 +209,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     PlasticMaterial result{
         &elasticity, &material.plasticity, solver::is_constant(elasticity, material.plasticity, law_.relation()), {}};
     if (result.constant)
-      result.point = located(cell, [&] {
+      result.point = naming_cell(this->mesh_, cell, [&] {
         return compressible(plastic_point(elasticity, material.plasticity, law_.relation(), MaterialPoint()));
       });
     return result;
@@ -217,16 +218,6 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   static PlasticPoint compressible(PlasticPoint point) {
     if (!std::isfinite(point.bulk)) require_compressible(0.5);
     return point;
-  }
-
-  /// An error says in which cell.
-  template <class Compute>
-  auto located(int cell, Compute&& compute) const {
-    try {
-      return compute();
-    } catch (const Error& error) {
-      throw Error(error.code(), fmt::format("{} (cell {})", error.what(), this->mesh_.cell_name(cell)), error.hint());
-    }
   }
 
   /// What the material is at a point.
@@ -262,7 +253,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
 
   PointResponse respond(int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient,
                         const VariableState& state, Respond how) const {
-    return located(this->cells_[static_cast<std::size_t>(element)], [&] {
+    return naming_cell(this->mesh_, this->cells_[static_cast<std::size_t>(element)], [&] {
       const Constants constants(*this, element, g, x, state);
       const PointInput input{gradient, constants.inelastic, *constants.plastic, past_[point_index(element, g)]};
       return extrapolation_ ? law_.respond_extrapolated(input, *extrapolation_) : (law_.*how)(input);
@@ -273,7 +264,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     for (int element = 0; element < this->map_.element_count(); ++element) {
       const Coordinates x = this->coordinates(element);
       for (int g = 0; g < this->point_count(); ++g) {
-        located(this->cells_[static_cast<std::size_t>(element)], [&] {
+        naming_cell(this->mesh_, this->cells_[static_cast<std::size_t>(element)], [&] {
           const Constants constants(*this, element, g, x, state);
           past_[point_index(element, g)].inelastic = constants.inelastic;
           past_[point_index(element, g)].moduli = *constants.plastic;
