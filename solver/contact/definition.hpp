@@ -131,21 +131,19 @@ struct ContactDefinition {
   std::vector<ContactZone> zones;
 };
 
-/// Whether contact is more than inequalities: the mixed formulation, and discrete zones that have a penalty, that rub,
-/// or that never open again. Such scenes go to MixedContact, discrete ones with points at the slave nodes that stand
-/// for forces.
-inline bool is_condensed(const ContactDefinition& definition) {
-  if (definition.formulation == ContactFormulation::mixed) return true;
-  return std::ranges::any_of(definition.zones, [](const ContactZone& zone) {
-    return zone.mixed.penalised || zone.mixed.bilateral || zone.mixed.friction > 0.0;
-  });
-}
-
 /// Whether it takes part in the stiffness of the bodies in Code_Aster: all that is weak or penalised.
 inline bool has_stiffness(const ContactDefinition& definition) {
   if (definition.formulation == ContactFormulation::mixed) return true;
   return std::ranges::any_of(definition.zones,
                              [](const ContactZone& zone) { return zone.mixed.penalised || zone.mixed.friction > 0.0; });
+}
+
+/// Whether contact is more than inequalities: the mixed formulation, and discrete zones that have a penalty, that rub,
+/// or that never open again. Such scenes go to MixedContact, discrete ones with points at the slave nodes that stand
+/// for forces.
+inline bool is_condensed(const ContactDefinition& definition) {
+  return has_stiffness(definition) ||
+         std::ranges::any_of(definition.zones, [](const ContactZone& zone) { return zone.mixed.bilateral; });
 }
 
 }  // namespace comma::solver
