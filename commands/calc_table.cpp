@@ -51,12 +51,6 @@ void rename(Table& table, const Keywords& action) {
   table.columns[static_cast<std::size_t>(column)] = names.back();
 }
 
-Value argument_of(const Cell& cell) {
-  if (const auto* text = std::get_if<std::string>(&cell)) return Value(*text);
-  if (const auto* integer = std::get_if<std::int64_t>(&cell)) return Value(*integer);
-  return Value(std::get<double>(cell));
-}
-
 Cell cell_of(const Value& value, const Keywords& action, const char* keyword = "FORMULE") {
   if (value.is_integer()) return value.as_integer();
   if (value.is_bool()) return static_cast<std::int64_t>(value.as_bool());
@@ -133,7 +127,7 @@ void compute(Table& table, const Keywords& action) {
     std::vector<Value> arguments;
     for (const int source : sources) {
       const Cell& cell = row[static_cast<std::size_t>(source)];
-      if (!std::holds_alternative<std::monostate>(cell)) arguments.push_back(argument_of(cell));
+      if (!is_empty(cell)) arguments.push_back(to_value(cell));
     }
     Cell& result = row[static_cast<std::size_t>(target)];
     result = Cell();

@@ -1,6 +1,5 @@
 // What a command file may ask a result for (U1.03.02).
 #include <algorithm>
-#include <cmath>
 #include <functional>
 
 #include <fmt/format.h>
@@ -61,8 +60,7 @@ std::shared_ptr<Dict> access_parameters(const ResultConcept& data) {
       lists->set(Value(name), of_steps(result, [&](const solver::ResultStep& step) {
                    const auto found = step.parameters.find(name);
                    if (found == step.parameters.end()) return Value();
-                   return is_count(name) ? Value(static_cast<std::int64_t>(std::lround(found->second)))
-                                         : Value(found->second);
+                   return to_value(parameter_cell(name, found->second));
                  }));
     }
   return lists;

@@ -23,10 +23,8 @@ Table computation(const ResultConcept& data) {
 
 }  // namespace
 
-bool is_count(std::string_view parameter) { return parameter == "ITER_GLOB"; }
-
 Cell parameter_cell(std::string_view parameter, double value) {
-  return is_count(parameter) ? Cell(static_cast<std::int64_t>(std::lround(value))) : Cell(value);
+  return parameter == "ITER_GLOB" ? Cell(static_cast<std::int64_t>(std::lround(value))) : Cell(value);
 }
 
 void StepTable::forget_after(int order) {

@@ -8,9 +8,7 @@
 
 namespace comma::commands {
 
-/// Whether a parameter of a step counts something: tables and lists have integers of it.
-bool is_count(std::string_view parameter);
-/// A parameter in a table.
+/// A parameter of a step in a table: an integer where it counts something.
 Cell parameter_cell(std::string_view parameter, double value);
 
 /// PARA_CALC: one row a step that was computed, with what the computation says of it; OBSERVATION where some was asked

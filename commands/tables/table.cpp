@@ -10,7 +10,6 @@
 
 #include "commands/tables/fortran_format.hpp"
 #include "commands/tables/row_keys.hpp"
-#include "interpreter/values/value.hpp"
 
 namespace comma::commands {
 
@@ -41,13 +40,20 @@ void Table::add_row(const std::vector<std::pair<std::string, Cell>>& cells) {
 
 bool is_empty(const Cell& cell) { return std::holds_alternative<std::monostate>(cell); }
 
-namespace {
-
-std::optional<double> cell_number(const Cell& cell) {
+std::optional<double> number_in(const Cell& cell) {
   if (const auto* real = std::get_if<double>(&cell)) return *real;
   if (const auto* integer = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*integer);
   return std::nullopt;
 }
+
+interpreter::Value to_value(const Cell& cell) {
+  if (const auto* text = std::get_if<std::string>(&cell)) return interpreter::Value(*text);
+  if (const auto* integer = std::get_if<std::int64_t>(&cell)) return interpreter::Value(*integer);
+  const auto* real = std::get_if<double>(&cell);
+  return real != nullptr ? interpreter::Value(*real) : interpreter::Value();
+}
+
+namespace {
 
 int cell_rank(const Cell& cell) { return is_empty(cell) ? 0 : std::holds_alternative<std::string>(cell) ? 2 : 1; }
 
@@ -57,7 +63,7 @@ bool stands_before(const Cell& a, const Cell& b) {
   if (cell_rank(a) != cell_rank(b)) return cell_rank(a) < cell_rank(b);
   if (cell_rank(a) == 0) return false;
   if (cell_rank(a) == 2) return std::get<std::string>(a) < std::get<std::string>(b);
-  const double left = *cell_number(a), right = *cell_number(b);
+  const double left = *number_in(a), right = *number_in(b);
   if (std::isnan(left) || std::isnan(right)) return std::isnan(left) && !std::isnan(right);
   return left < right;
 }

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "interpreter/values/value.hpp"
 
 namespace comma::commands {
 
@@ -35,6 +38,10 @@ struct Table {
 };
 
 bool is_empty(const Cell& cell);
+/// The number of a cell; nothing where it holds a text, or nothing.
+std::optional<double> number_in(const Cell& cell);
+/// A cell as the language has it, None of an empty one.
+interpreter::Value to_value(const Cell& cell);
 /// Takes away rows in which every cell is empty; and columns too.
 void drop_empty_rows(Table& table);
 void drop_empty(Table& table);

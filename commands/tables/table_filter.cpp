@@ -104,12 +104,6 @@ Table extremes(const Table& table, int column, const Keywords& filter) {
 
 }  // namespace
 
-std::optional<double> number_in(const Cell& cell) {
-  if (const auto* real = std::get_if<double>(&cell)) return *real;
-  if (const auto* integer = std::get_if<std::int64_t>(&cell)) return static_cast<double>(*integer);
-  return std::nullopt;
-}
-
 int column_of(const Table& table, const std::string& name, const Keywords& keywords, const std::string& keyword) {
   const int column = table.column(name);
   if (column >= 0) return column;

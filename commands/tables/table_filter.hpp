@@ -9,9 +9,6 @@
 
 namespace comma::commands {
 
-/// The number in a cell; nothing where it holds text or nothing.
-std::optional<double> number_in(const Cell& cell);
-
 /// Index of a column. Throws DiagnosticError `unknown-column` at `keyword` with the nearest name.
 int column_of(const Table& table, const std::string& name, const interpreter::Keywords& keywords,
               const std::string& keyword = "NOM_PARA");
