@@ -247,8 +247,7 @@ void add_beam_force(const ForceInput& input, const BeamForce& load, double facto
     at_ends[end].head<3>() = (axes * at_ends[end].head<3>()).eval();
     at_ends[end].tail<3>() = (axes * at_ends[end].tail<3>()).eval();
   }
-  const auto linear = [&](double s) -> Eigen::Matrix<double, 6, 1> { return (1.0 - s) * at_ends[0] + s * at_ends[1]; };
-  add_slender_load(input, load.cell, linear, forces);
+  add_force_per_length(input, load.cell, at_ends, forces);
 }
 
 }  // namespace

@@ -85,10 +85,10 @@ Eigen::Matrix3d slender_axes(const ForceInput& input, int cell) {
   return own_axes(*input.model.mesh, cell, roll);
 }
 
-void add_slender_load(const ForceInput& input, int cell, const LineLoad& load, std::span<long double> forces) {
+namespace {
+
+void add_at_ends(const ForceInput& input, int cell, const Vector12& own, std::span<long double> forces) {
   const Mesh& mesh = *input.model.mesh;
-  const Vector12 own =
-      is_bar(input.model.formulations[cell]) ? bar_end_forces(mesh, cell, load) : beam_end_forces(input, cell, load);
   const Eigen::Matrix3d axes = slender_axes(input, cell);
   const ComponentMask carried = input.model.components_of(cell);
   for (int part = 0; part < 4; ++part) {  // forces and moments of the first end, then of the second
@@ -99,6 +99,28 @@ void add_slender_load(const ForceInput& input, int cell, const LineLoad& load, s
       if (contains(carried, component)) forces[input.dofs.dof(node, component)] += global[c];
     }
   }
+}
+
+}  // namespace
+
+void add_slender_load(const ForceInput& input, int cell, const LineLoad& load, std::span<long double> forces) {
+  const bool bar = is_bar(input.model.formulations[cell]);
+  add_at_ends(input, cell, bar ? bar_end_forces(*input.model.mesh, cell, load) : beam_end_forces(input, cell, load),
+              forces);
+}
+
+void add_force_per_length(const ForceInput& input, int cell, const std::array<Vector6, 2>& at_ends,
+                          std::span<long double> forces) {
+  if (is_bar(input.model.formulations[cell]) || !varies(section_of(input, cell))) {
+    const auto linear = [&](double s) -> Vector6 { return (1.0 - s) * at_ends[0] + s * at_ends[1]; };
+    return add_slender_load(input, cell, linear, forces);
+  }
+  Vector12 own;
+  for (int end = 0; end < 2; ++end) {
+    const auto constant = [&](double) { return at_ends[end]; };
+    own.segment<6>(6 * end) = beam_end_forces(input, cell, constant).segment<6>(6 * end);
+  }
+  add_at_ends(input, cell, own, forces);
 }
 
 }  // namespace comma::solver

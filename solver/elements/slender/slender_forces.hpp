@@ -26,4 +26,9 @@ MaterialPoint material_point_of(const ForceInput& input, int cell);
 /// them. Throws Error `unsupported` for moments on a bar.
 void add_slender_load(const ForceInput& input, int cell, const LineLoad& load, std::span<long double> forces);
 
+/// The same of a force per length that is given at both ends: linear between them, but on a beam whose section varies
+/// each end bears its own as if that were constant (so has it Code_Aster 17.3).
+void add_force_per_length(const ForceInput& input, int cell, const std::array<Eigen::Matrix<double, 6, 1>, 2>& at_ends,
+                          std::span<long double> forces);
+
 }  // namespace comma::solver

@@ -80,6 +80,23 @@ TEST_CASE("a load that grows along the cantilever acts by the work that it does 
   CHECK(timoshenko[5] == exactly(l3 / (8 * rigidity)));
 }
 
+TEST_CASE("a load that grows along a beam that tapers acts at each end as if its value there were constant",
+          "[loads]") {
+  ElementProperties properties = Cantilever::properties(0.0);
+  BeamSection& tapered = properties.sections[0];
+  tapered.end = std::make_shared<BeamSection>(section);
+  const Body body(Cantilever::mesh(), std::vector{Formulation::timoshenko_beam}, elastic(young, poisson), properties);
+  BeamForce growing = force(1, 0.0);
+  growing.functions[1] = [](const Point& at, double) { return 3.0 + at[0]; };
+  Load load;
+  load.beam_forces.push_back(growing);
+  const Eigen::VectorXd forces = body.assembler->external_forces(applied(std::move(load)), 0.0);
+  CHECK(forces[1] == exactly(3.0 * length / 2));
+  CHECK(forces[5] == exactly(3.0 * length * length / 12));
+  CHECK(forces[7] == exactly(5.0 * length / 2));
+  CHECK(forces[11] == exactly(-5.0 * length * length / 12));
+}
+
 TEST_CASE("moments per length twist and bend the cantilever", "[loads]") {
   const double m = 0.3;
   for (const Formulation formulation : {Formulation::euler_beam, Formulation::timoshenko_beam}) {
