@@ -118,6 +118,29 @@ void warn_of_empty_field(const std::string& name, const Call& call, Context& con
       "bars and beams have SIEF_ELGA, EFGE_ELNO, SIPO_ELNO and SIPM_ELNO, discrete elements SIEF_ELGA and EFGE_ELNO");
 }
 
+// The outermost fibre of a section lies on its outline.
+void warn_of_unknown_outlines(const Call& call, const solver::StaticProblem& problem, const ChosenCells& cells,
+                              Context& context) {
+  const solver::Model& model = *problem.model;
+  const std::vector<std::string> wanted = wanted_fields(call);
+  if (std::ranges::find(wanted, "SIPM_ELNO") == wanted.end()) return;
+  const auto& sections = problem.properties->sections;
+  for (int cell = 0; cell < model.mesh->cell_count(); ++cell) {
+    const auto found = sections.find(cell);
+    if (found == sections.end() || found->second.shape != solver::SectionShape::general) continue;
+    if (!solver::is_beam(model.formulations[static_cast<std::size_t>(cell)]) ||
+        (cells && std::ranges::find(*cells, cell) == cells->end()))
+      continue;
+    context.diagnostics.alarm(
+        "unknown-outline",
+        fmt::format("CALC_CHAMP: the beam on cell {} and its like have no SIPM_ELNO: their section is general, without "
+                    "an outline",
+                    model.mesh->cell_name(cell)),
+        call.span, "describe it by SECTION='RECTANGLE' or 'CERCLE'");
+    return;
+  }
+}
+
 // Strains follow from displacements, which say nothing of that across a plane body without stress there.
 void warn_of_elastic_thickness(const Call& call, const solver::StaticProblem& problem, Context& context) {
   if (!problem.behaviours) return;
@@ -180,6 +203,7 @@ void add_fields(const Call& call, Context& context, ResultConcept& data) {
   for (const std::string& name : empty)
     if (!filled.contains(name)) warn_of_empty_field(name, call, context);
   if (!cells) computation.warn_of_limited_sources(context.diagnostics);
+  warn_of_unknown_outlines(call, computation.problem(), cells, context);
   warn_of_small_measures(call, computation.problem(), context);
   if (has_total_strains(wanted_fields(call))) warn_of_elastic_thickness(call, computation.problem(), context);
 }

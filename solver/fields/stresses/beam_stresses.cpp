@@ -53,7 +53,7 @@ ElementField on_members(const FieldInput& input, const ElementField& forces, std
   return result;
 }
 
-/// The largest stress that bending causes.
+/// The largest stress that bending causes; `absent` where the section has no outline.
 double bending_stress(const FieldInput& input, int cell, const BeamSection& section, const SectionForces& f) {
   if (!is_beam(input.model.formulations[cell])) return 0.0;
   const double about_y = std::abs(f.mfy) * section.reach_z / section.inertia_y;
@@ -66,12 +66,7 @@ double bending_stress(const FieldInput& input, int cell, const BeamSection& sect
     case SectionShape::general:
       break;
   }
-  throw Error(
-      "unsupported",
-      fmt::format(
-          "the extreme stresses of the beam on cell {} are not known: its section is general, without an outline",
-          input.model.mesh->cell_name(cell)),
-      "ask for them on beams with a rectangular or circular section");
+  return absent;
 }
 
 const IsotropicElasticity& isotropic(const FieldInput& input, int cell) {

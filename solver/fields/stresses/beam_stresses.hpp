@@ -16,7 +16,7 @@ namespace comma::solver {
 ElementField force_stresses(const FieldInput& input, const ElementField& forces);
 
 /// SIPM_ELNO, the smallest and largest axial stress of the section: SIXXMIN, SIXXMAX. On the corners of a rectangle, on
-/// the rim of a circle. Throws Error `unsupported` naming a beam of general section, whose outline is not known.
+/// the rim of a circle. Beams of general sections, whose outline is not known, have no values.
 ElementField extreme_stresses(const FieldInput& input, const ElementField& forces);
 
 /// DEGE_ELNO, generalised strains: EPXX GAXY GAXZ GAT KY KZ, `imposed` ones (null: none) included; those of command

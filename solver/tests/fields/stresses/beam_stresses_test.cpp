@@ -66,7 +66,7 @@ TEST_CASE("extreme stresses: both moments at a rectangle's corner, their resulta
   BeamSection general = rectangle();
   general.shape = SectionShape::general;
   const Body unknown = beam(general);
-  CHECK_THROWS_WITH(extreme_stresses(input_of(unknown), forces({0, 0, 0, 0, 3, 4})), Catch::Contains("M1"));
+  CHECK(std::isnan(extreme_stresses(input_of(unknown), forces({0, 0, 0, 0, 3, 4})).at(0, 0, 1)));
 }
 
 TEST_CASE("generalised strains of a stretched, twisted and bent beam", "[fields]") {
