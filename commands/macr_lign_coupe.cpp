@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
 #include "commands/commands.hpp"
@@ -71,16 +70,6 @@ CutLine arc_of(const Keywords& line, int dimension) {
   return cut;
 }
 
-// The open end from which a segment leads off, if there is one.
-std::optional<int> first_end(const solver::Mesh& mesh, const std::vector<int>& segments) {
-  std::map<int, int> ends;
-  for (const int segment : segments)
-    for (const int node : mesh.cell(segment).first(2)) ++ends[node];
-  const auto leads_off = [&](int segment) { return ends.at(mesh.cell(segment)[0]) == 1; };
-  const auto found = std::ranges::find_if(segments, leads_off);
-  return found == segments.end() ? std::nullopt : std::optional(mesh.cell(*found)[0]);
-}
-
 // A line of cells is walked as they run, from end to end of each; its points are looked for in the body like others.
 CutLine line_of_cells(const Keywords& line) {
   const solver::Mesh& mesh = *line.data<MeshConcept>("MAILLAGE").mesh;
@@ -91,7 +80,7 @@ CutLine line_of_cells(const Keywords& line) {
       throw DiagnosticError("not-a-line", "MACR_LIGN_COUPE: the cells are no line of segments",
                             line.span_of("GROUP_MA"));
   const auto ends = solver::nodes_of_cells(mesh, segments, solver::NodeRole::corner);
-  for (const int node : solver::nodes_along_line(mesh, segments, first_end(mesh, segments), {}, {}))
+  for (const int node : solver::nodes_along_line(mesh, segments))
     if (std::ranges::binary_search(ends, node)) cut.points.nodes.push_back(mesh.nodes[node]);
   return cut;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <map>
+#include <vector>
 
 #include "solver/error.hpp"
 #include "solver/mesh/groups.hpp"
@@ -22,6 +23,7 @@ class Line {
   [[noreturn]] static void fail(const std::string& what) { throw Error("not-a-line", what); }
 
   void connect();
+  /// Of the cells in the order of the mesh: the end that one begins with, or else that one ends with (Code_Aster 17.3).
   int first_open_end() const;
   int choose_start(std::optional<int> start, std::optional<int> end) const;
   int first_cell(int start, std::optional<Point> direction) const;
@@ -51,11 +53,11 @@ void Line::connect() {
 }
 
 int Line::first_open_end() const {
-  for (const int cell : cells_) {
-    for (const int node : mesh_.cell(cell).first(2)) {
-      if (is_end(node)) return node;
-    }
-  }
+  std::vector<int> as_in_mesh(cells_.begin(), cells_.end());
+  std::ranges::sort(as_in_mesh);
+  for (const std::size_t side : {0U, 1U})
+    for (const int cell : as_in_mesh)
+      if (const int node = mesh_.cell(cell)[side]; is_end(node)) return node;
   return -1;
 }
 

@@ -138,6 +138,22 @@ TEST_CASE("an open line is walked from end to end") {
   CHECK_THROWS_AS(nodes_along_line(mesh, Group{}), Error);
 }
 
+TEST_CASE("a line begins at the end that a cell begins with, else at the first end in the mesh") {
+  const auto walk = [](std::initializer_list<std::array<int, 2>> cells, const Group& order) {
+    Mesh mesh;
+    mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+    for (const auto& cell : cells) mesh.add_cell(CellType::seg2, cell);
+    return nodes_along_line(mesh, order);
+  };
+  const Group there = {0, 1, 2, 3}, back = {3, 2, 1, 0};
+  const Group as_numbered = {0, 1, 2};
+  CHECK(walk({{1, 0}, {2, 1}, {3, 2}}, as_numbered) == back);
+  CHECK(walk({{2, 3}, {1, 2}, {0, 1}}, as_numbered) == there);
+  CHECK(walk({{1, 0}, {1, 2}, {3, 2}}, as_numbered) == back);
+  CHECK(walk({{1, 0}, {1, 2}, {2, 3}}, as_numbered) == there);
+  CHECK(walk({{0, 1}, {1, 2}, {3, 2}}, Group{2, 1, 0}) == there);
+}
+
 TEST_CASE("a closed line is walked once round") {
   const Mesh mesh = circle();
   Group all;
