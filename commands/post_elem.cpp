@@ -76,7 +76,11 @@ double reference_energy(const Call& call, const char* keyword, const solver::Ele
   return solver::sum_over_cells(energies, 0, std::span<const int>(cells));
 }
 
-double percentage(double part, double whole) { return whole != 0.0 ? 100.0 * part / whole : 100.0; }
+// Of nothing the whole is everything, a group nothing (Code_Aster 17.3).
+double percentage(const Part& part, double share, double whole) {
+  if (whole == 0.0) return part.kind == "TOUT" ? 100.0 : 0.0;
+  return 100.0 * share / whole;
+}
 
 void warn_of_potential_energy(const Call& call, interpreter::Diagnostics& diagnostics) {
   diagnostics.alarm("linear-energy",
@@ -106,8 +110,8 @@ void list_energies(Table& table, const Call& call, interpreter::Diagnostics& dia
     const double whole =
         is_potential ? reference_energy(call, keyword, energies, is_stored, source.result.mesh()) : 0.0;
     for (const Keywords& occurrence : call.factors(keyword)) {
-      for (const Part& part : is_elastic ? parts_and_union(call, occurrence, source.result.mesh())
-                                         : parts_of(call, occurrence, source.result.mesh())) {
+      for (const Part& part : is_potential ? parts_of(call, occurrence, source.result.mesh())
+                                           : parts_and_union(call, occurrence, source.result.mesh())) {
         const double total = solver::sum_over_cells(energies, 0, std::span<const int>(part.cells));
         Row row;
         if (call.has("RESULTAT"))
@@ -118,7 +122,7 @@ void list_energies(Table& table, const Call& call, interpreter::Diagnostics& dia
         if (is_elastic)
           add_parts(row, energies, part.cells);
         else if (is_potential)
-          row.emplace_back("POUR_CENT", percentage(total, whole));
+          row.emplace_back("POUR_CENT", percentage(part, total, whole));
         table.add_row(row);
       }
     }
