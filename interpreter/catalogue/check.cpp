@@ -128,7 +128,7 @@ class LevelCheck {
     guesses_ = guesses_of_misspelt(level_, label_, written_, scope_);
     for (const KeywordGuess& guess : guesses_) {
       const auto pending = std::ranges::find(pending_, guess.written, &Pending::name);
-      given_.push_back({guess.meant, pending->argument->name_span});
+      given_.push_back({guess.meant, pending->argument->name_span, true});
       scope_.values[guess.meant] = Value::unknown();
     }
   }

@@ -76,6 +76,7 @@ class RuleCheck {
 
   /// A keyword that several rules exclude is one keyword too many, not several.
   void report_exclusive(const GivenKeyword& second, const GivenKeyword& first) {
+    if (first.is_guess || second.is_guess) return;
     if (blamed_.contains(first.name) || blamed_.contains(second.name)) return;
     blamed_.insert({first.name, second.name});
     diagnostics_.error("exclusive-keywords",
@@ -102,7 +103,7 @@ class RuleCheck {
   }
 
   void report_required(const GivenKeyword& asking, const std::string& missing) {
-    if (blamed_.contains(asking.name)) return;
+    if (asking.is_guess || blamed_.contains(asking.name)) return;
     diagnostics_.error("requires-keyword", fmt::format("{}/{} goes together with {}", label_, asking.name, missing),
                        asking.name_span, fmt::format("add {}", missing));
   }

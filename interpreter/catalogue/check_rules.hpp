@@ -14,6 +14,7 @@ namespace comma::interpreter {
 struct GivenKeyword {
   std::string name;
   Span name_span;
+  bool is_guess = false;  ///< what a misspelt one may have meant: nothing is missing then, and nothing too much
 };
 
 /// Codes: missing-one-of, exclusive-keywords, requires-keyword. `label` names the level ("DEFI_CONTACT/ZONE"); `span`

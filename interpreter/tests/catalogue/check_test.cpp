@@ -264,6 +264,10 @@ TEST_CASE("Keywords that exclude each other") {
          "LOAD takes PRES or POINTS, not both", "POINTS", "keep one of them");
 }
 
+TEST_CASE("A misspelt keyword excludes none") {
+  CHECK(Checker().only({{"PRESS", Value(1.0)}, {"POINTS", Value(2.0)}}).code == "unknown-keyword");
+}
+
 TEST_CASE("None of the keywords of which one is needed") {
   const Diagnostic found = Checker().only({{"SPOT", factor({{"WEIGHT", Value(2.0)}})}});
   expect(found, "missing-one-of", "LOAD/SPOT needs one of GROUP, ALL", "_F(WEIGHT=2.0, )");
