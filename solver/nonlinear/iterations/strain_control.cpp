@@ -53,6 +53,8 @@ StrainControl::StrainControl(const StaticProblem& problem, const DofMap& dofs, c
   for (const int cell : continuum_cells(problem, cells))
     for (int point = 0; point < field.points(cell); ++point) {
       points_.push_back({cell, point, strain.at(cell, point)});
+      if (is_plane_stress(problem.model->formulations[static_cast<std::size_t>(cell)]))
+        points_.back().direction[2] = 0.0;
       largest = std::max(largest, product(points_.back().direction, points_.back().direction));
     }
   std::erase_if(points_, [&](const Point& point) {

@@ -12,7 +12,8 @@
 namespace comma::solver {
 
 /// At each point that is strained where the step begins, the change of its strain projected on the direction of that
-/// strain (tensors, by their products): the largest of all points is controlled. Small strains of continua.
+/// strain (tensors, by their products; in plane stress without EPZZ, as Code_Aster 17.3 does): the largest of all
+/// points is controlled. Small strains of continua.
 class StrainControl {
  public:
   /// From the displacements u, where the step begins. `cells`: those that are looked at; empty: all. Keeps references
