@@ -25,6 +25,7 @@ void StaticRun::start(double instant) {
   } else if (!result_.steps.empty()) {
     take_last_step();
   }
+  began_at_ = now_.state.u;
   differential_from_ = differential_reference();
   elimination_.measure_from(differential_from_);
   now_.state.reduced = now_.state.u(elimination_.kept());

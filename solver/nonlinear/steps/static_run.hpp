@@ -176,9 +176,10 @@ class StaticRun {
   Progress now_;
   std::optional<SurfaceDoubts> surface_doubts_;
   ContactDoubts doubts_;
-  Eigen::VectorXd start_;  ///< u at the beginning of the step
-  Eigen::VectorXd speed_;  ///< change of u over time in the last step; empty before the first
-  int accepted_ = 0;       ///< steps
+  Eigen::VectorXd began_at_;  ///< u where the computation begins
+  Eigen::VectorXd start_;     ///< u at the beginning of the step
+  Eigen::VectorXd speed_;     ///< change of u over time in the last step; empty before the first
+  int accepted_ = 0;          ///< steps
   double last_instant_ = 0.0;
   double last_duration_ = 0.0;         ///< of the last accepted step; 0 before
   bool may_cut_ = false;               ///< whether the step at hand may be cut where it fails

@@ -154,10 +154,10 @@ void StaticRun::guess(double time) {
 void StaticRun::pair(double time, const Eigen::VectorXd& u, GeometryUpdates* updates) {
   now_.paired = true;
   if (!problem_.contact) return;
-  // Without updates surfaces face each other as the mesh has them, wherever the computation goes on from (U4.44.11), in
-  // the discrete formulation as each step begins (Code_Aster 17.3).
+  // Without updates surfaces face each other as the computation begins, in the discrete formulation as each step does
+  // (U4.44.11; Code_Aster 17.3).
   if (problem_.contact->geometry_update == GeometryUpdate::none && !pairs_each_step())
-    now_.reference = Eigen::VectorXd::Zero(u.size());
+    now_.reference = began_at_;
   else
     now_.reference = updates ? updates->relaxed(now_.reference, u) : u;
   const double margin = updates ? updates->margin() : 0.0;
