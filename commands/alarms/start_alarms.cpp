@@ -266,10 +266,10 @@ void warn_of_released_points(const interpreter::Call& call, const solver::Static
                             call.factor("ETAT_INIT").span, "give the result and its step (EVOL_NOLI)");
 }
 
-/// Whether it has warned.
-bool warn_of_other_laws(const interpreter::Call& call, const solver::BehaviourOfCells* before,
-                        const solver::StaticProblem& problem, Context& context) {
-  if (before == nullptr || !problem.behaviours || !problem.initial || !problem.initial->variables) return false;
+/// A law cannot go on from the internal variables of one that has others.
+void require_same_variables(const interpreter::Call& call, const solver::BehaviourOfCells* before,
+                            const solver::StaticProblem& problem) {
+  if (before == nullptr || !problem.behaviours || !problem.initial || !problem.initial->variables) return;
   const solver::BehaviourOfCells& now = *problem.behaviours;
   const std::vector<std::string> none = {"VIDE"};
   for (std::size_t cell = 0; cell < std::min(before->size(), now.size()); ++cell) {
@@ -279,17 +279,16 @@ bool warn_of_other_laws(const interpreter::Call& call, const solver::BehaviourOf
     // Some laws have variables without names.
     const bool is_named = !had.empty() && !has.empty();
     if (is_named ? had == has : (*before)[cell].relation == now[cell].relation) continue;
-    context.diagnostics.alarm(
+    throw interpreter::DiagnosticError(
         "other-variables",
-        fmt::format(
-            "{}: the law of cell {} had the internal variables {} and now has {}: they are taken by their numbers",
-            call.command, problem.model->mesh->cell_name(static_cast<int>(cell)),
-            had.empty() ? "of its own" : fmt::format("{}", fmt::join(had, ", ")),
-            has.empty() ? "others" : fmt::format("{}", fmt::join(has, ", "))),
-        call.factor("ETAT_INIT").span, "go on with the same law, or give VARI that belong to the new one");
-    return true;
+        fmt::format("{}: the law of cell {} had the internal variables {} and now has {}, and cannot go on from them",
+                    call.command, problem.model->mesh->cell_name(static_cast<int>(cell)),
+                    had.empty() ? "of its own" : fmt::format("{}", fmt::join(had, ", ")),
+                    has.empty() ? "others" : fmt::format("{}", fmt::join(has, ", "))),
+        call.factor("ETAT_INIT").span,
+        "go on with the same law, or give fields (ETAT_INIT=_F(DEPL=..., SIGM=..., VARI=...)) that belong to the new "
+        "one");
   }
-  return false;
 }
 
 // Fields of another law, or brought from nodes to points, may hold what no law leaves behind.
@@ -343,7 +342,8 @@ void warn_of_start(const interpreter::Call& call, const solver::StaticProblem& p
   warn_of_forgotten_flow(call, problem, context);
   warn_of_lost_variables(call, problem, context);
   warn_of_released_points(call, problem, context);
-  if (!warn_of_other_laws(call, before, problem, context)) warn_of_odd_variables(call, problem, context);
+  require_same_variables(call, before, problem);
+  warn_of_odd_variables(call, problem, context);
 }
 
 }  // namespace comma::commands
