@@ -91,6 +91,22 @@ void bring_to_points(const interpreter::Call& call, std::optional<solver::Elemen
   field = solver::brought_to(*call.data<ModelConcept>("MODELE").model, *field, solver::Support::gauss_point, false);
 }
 
+// What has acted so far. Forces may have no place on another model, which has lost cells, say: of those only what
+// strains its cells counts there.
+std::vector<solver::AppliedLoad> loads_so_far(const solver::StaticProblem& before, const solver::Model& now) {
+  if (before.model.get() == &now) return before.loads;
+  std::vector<solver::AppliedLoad> loads = before.loads;
+  for (solver::AppliedLoad& applied : loads) {
+    auto strains = std::make_shared<solver::Load>();
+    strains->initial_strains = applied.load->initial_strains;
+    strains->initial_slender_strains = applied.load->initial_slender_strains;
+    strains->initial_plate_strains = applied.load->initial_plate_strains;
+    strains->initial_strain_fields = applied.load->initial_strain_fields;
+    applied.load = std::move(strains);
+  }
+  return loads;
+}
+
 void require_same_mesh(const Keywords& keywords, const solver::Mesh& mesh) {
   if (keywords.has("EVOL_NOLI"))
     require_mesh(keywords, "EVOL_NOLI", &keywords.data<ResultConcept>("EVOL_NOLI").result.mesh(), mesh);
@@ -112,7 +128,7 @@ InitialStateChoice initial_state(const interpreter::Call& call) {
     take_held(step, "SIEF_ELGA", state->stresses);
     take_held(step, "VARI_ELGA", state->variables);
     const solver::StaticProblem& problem = keywords.data<ResultConcept>("EVOL_NOLI").problem_of(step);
-    state->loads = problem.loads;
+    state->loads = loads_so_far(problem, *call.data<ModelConcept>("MODELE").model);
     choice.behaviours = problem.behaviours;
     take_path(keywords.data<ResultConcept>("EVOL_NOLI").result, step, *state);
     state->contact = step.contact;
