@@ -22,8 +22,6 @@ CellType linear_cell(const Model& model, int cell) {
       return CellType::quad4;
     case CellType::tetra10:
       return CellType::tetra4;
-    case CellType::pyram13:
-      return CellType::pyram5;
     case CellType::penta15:
       return CellType::penta6;
     case CellType::hexa20:

@@ -7,8 +7,6 @@ std::unique_ptr<ElementBlock> make_mixed_solid_block(const BlockInput& input, st
   switch (input.model.mesh->cell_types[cells.front()]) {
     case CellType::tetra10:
       return std::make_unique<MixedBlock<3, 10, false>>(input, std::move(cells));
-    case CellType::pyram13:
-      return std::make_unique<MixedBlock<3, 13, false>>(input, std::move(cells));
     case CellType::penta15:
       return std::make_unique<MixedBlock<3, 15, false>>(input, std::move(cells));
     case CellType::hexa20:
