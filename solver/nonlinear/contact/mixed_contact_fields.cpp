@@ -107,12 +107,11 @@ void add_idle_multipliers(const SolvedContact& contact, const std::function<doub
   }
 }
 
-/// Where the place on the master has gone since surfaces were paired.
-Vector3d place_on_facet(const Mesh& mesh, const ContactPair& pair, Positions positions) {
+/// Where a place on a cell has gone, by the shape functions of its nodes there.
+Vector3d place_on_cell(const Mesh& mesh, int cell, std::span<const double> shape, Positions positions) {
   Vector3d place = Vector3d::Zero();
-  const auto nodes = mesh.cell(pair.facet);
-  for (std::size_t a = 0; a < nodes.size(); ++a)
-    place += pair.weights[a] * positions[static_cast<std::size_t>(nodes[a])];
+  const auto nodes = mesh.cell(cell);
+  for (std::size_t a = 0; a < nodes.size(); ++a) place += shape[a] * positions[static_cast<std::size_t>(nodes[a])];
   return place;
 }
 
@@ -158,8 +157,13 @@ NodeContact node_contact(const SolvedContact& contact, Positions positions, std:
   }
   const bool is_discrete = contact.faced.definition.formulation == ContactFormulation::discrete;
   node.has_foot = is_discrete ? node.closed : node.pair.facet >= 0;
-  if (!is_discrete && node.has_foot) node.pair.foot = place_on_facet(contact.faced.mesh, node.pair, positions);
-  if (!is_discrete && point.beside >= 0 && point.node >= 0) node.gap = gap_at(node.pair, contact.faced.mesh, positions);
+  if (!is_discrete && node.has_foot) {
+    const Mesh& mesh = contact.faced.mesh;
+    node.pair.foot = place_on_cell(mesh, node.pair.facet, node.pair.weights, positions);
+    const Vector3d place = point.node >= 0 ? positions[static_cast<std::size_t>(point.node)]
+                                           : place_on_cell(mesh, point.cell, point.shape, positions);
+    if (point.beside >= 0) node.gap = (place - node.pair.foot).dot(point.normal) - point.thickness;
+  }
   if (point.node >= 0) node.shear_force = shear_force(contact, p);
   for (int c = 1; c < condensed.rows; ++c)
     node.slip[c - 1] = contact.faced.is_closed(p) ? contact.jumps[condensed.first_row + c] : 0.0;
