@@ -34,6 +34,8 @@ class DoubtTeller {
         return deep_penalty();
       case solver::DoubtKind::watched_overlap:
         return watched_overlap();
+      case solver::DoubtKind::passed_over:
+        return passed_over();
       case solver::DoubtKind::soft_bound:
         return soft_bound();
       case solver::DoubtKind::coarse_gradients:
@@ -98,6 +100,15 @@ class DoubtTeller {
                 "node {} lies {:.3g} deep in the other surface of zone {}, where contact is watched and not enforced",
                 mesh_.node_name(doubt_.node), doubt_.length, zone_),
             "enforce contact there (RESOLUTION='OUI'), or allow the depth (TOLE_INTERP)"};
+  }
+
+  DoubtAdvice passed_over() const {
+    return {"passed-over",
+            fmt::format("node {} and its like in zone {} stay open {:.3g} deep in the master: ALGO_CONT='CONTRAINTE' "
+                        "passes over what overlaps less than where its iteration began, and would be apart without "
+                        "contact",
+                        mesh_.node_name(doubt_.node), zone_, doubt_.length),
+            "take ALGO_CONT='GCP', which closes them; smaller steps or more updates of the geometry may"};
   }
 
   DoubtAdvice soft_bound() const {

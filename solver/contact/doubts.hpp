@@ -31,6 +31,8 @@ enum class DoubtKind : std::uint8_t {
                     ///< which pressures of the nodes hold them
   bridged_gap,      ///< surfaces that are held together from the first on (MixedZone::bilateral) were apart
   held_overlap,     ///< conditions on displacements hold a point inside the master, and a penalty gives it no force
+  passed_over,      ///< the active set leaves nodes inside the master that an iteration has moved outwards
+                    ///< (ActiveSetProblem::beginning)
   passed_master,    ///< master nodes between slave points have gone through the slave side
   passed_average,  ///< under local average contact slave nodes are inside the master: patches hold it in the mean alone
   weak_friction,   ///< points between nodes that slide bear less than the limit of friction: that is of the multipliers
@@ -48,11 +50,12 @@ enum class DoubtKind : std::uint8_t {
 struct ContactDoubt {
   DoubtKind kind = DoubtKind::soft_penalty;
   int zone = 0;
-  double share = 0.0;  ///< of the depth, slip or motion in what the kind compares it with; `passed_master`,
-                       ///< `passed_average`, `coarse_face`: of the mean depth of nodes or points in what contact pushes
-                       ///< back (infinite where it pushes nothing); `coarse_friction`: by which unknowns change, in the
-                       ///< largest; `weak_friction`, `strong_friction`: of what points
-                       ///< that slide lack in the limit of all, or points bear beyond theirs
+  double share =
+      0.0;  ///< of the depth, slip or motion in what the kind compares it with; `passed_over`: the depth;
+            ///< `passed_master`, `passed_average`, `coarse_face`: of the mean depth of nodes or points in what contact
+            ///< pushes back (infinite where it pushes nothing); `coarse_friction`: by which unknowns change, in the
+            ///< largest; `weak_friction`, `strong_friction`: of what points
+            ///< that slide lack in the limit of all, or points bear beyond theirs
   double length = 0.0;   ///< m: depth or slip
   double penalty = 0.0;  ///< the present one; `coarse_gradients`: the tolerance (m); `coarse_friction`: that of a share
   double wanted = 0.0;   ///< one that would leave a share of `penalty_goal`

@@ -117,10 +117,17 @@ class ActiveSetSolver {
       violation_ -= multipliers_[static_cast<Eigen::Index>(i)] * schur_.column(active_[i]);
   }
 
+  /// Whether a row stays open though it is violated (ActiveSetProblem::beginning).
+  bool is_passed_over(int row) const {
+    return problem_.beginning.size() > 0 && problem_.excess[row] <= tolerance(row) &&
+           violation_[row] <= problem_.beginning[row] + tolerance(row);
+  }
+
   std::vector<int> violated_rows() const {
     std::vector<int> rows;
     for (int row = 0; row < schur_.size(); ++row)
-      if (!is_active_[row] && !redundant_[row] && violation_[row] > tolerance(row)) rows.push_back(row);
+      if (!is_active_[row] && !redundant_[row] && violation_[row] > tolerance(row) && !is_passed_over(row))
+        rows.push_back(row);
     return rows;
   }
 
@@ -184,7 +191,7 @@ class ActiveSetSolver {
     int worst = -1;
     double largest = violation_tolerance;
     for (int row = 0; row < schur_.size(); ++row) {
-      if (is_active_[row] || redundant_[row]) continue;
+      if (is_active_[row] || redundant_[row] || is_passed_over(row)) continue;
       const double relative = violation_[row] / problem_.scale[row];
       if (relative > largest) {
         largest = relative;

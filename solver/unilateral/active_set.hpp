@@ -19,6 +19,10 @@ struct ActiveSetProblem {
   Eigen::VectorXd scale;
   std::vector<int> guess;     ///< rows that were active before
   int max_iterations = 1000;  ///< changes of the active set, at most
+  /// A u - b (m) where the iteration begins that leads to u0; empty: nothing is passed over. The active set of
+  /// Code_Aster starts with the rows that u0 violates and then takes what comes nearer (R5.03.50; found from the lists
+  /// that 17.3 prints): of rows that u0 holds those stay open whose violation in the end is no larger than here.
+  Eigen::VectorXd beginning;
 };
 
 /// What the method keeps from one solution to the next: the factor of the rows that were active, good as long as S is

@@ -184,7 +184,10 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
     correction.changes = mixed_->correct(before, offset, state.reduced);
   } else {
     state.reduced = before + step;
-    if (row_multipliers_.size()) correction = correct_with_conditions(state);
+    if (row_multipliers_.size()) {
+      if (passes_over()) beginning_ = violations_at(state.u);
+      correction = correct_with_conditions(state);
+    }
   }
   double size = 0.0, change = 0.0;
   for (Eigen::Index k = 0; k < state.reduced.size(); ++k) {

@@ -131,6 +131,11 @@ class NewtonSolver {
   void throw_unless_solved(const ActiveSetSolution& solution) const;
   bool by_gradients() const { return definition_ && definition_->algorithm == ContactAlgorithm::projected_gradient; }
   bool by_compliance() const;
+  /// Whether contact may stay open where it is violated (ActiveSetProblem::beginning). LIAISON_UNIL never does.
+  bool passes_over() const { return definition_ && !by_gradients(); }
+  Eigen::VectorXd violations_at(const Eigen::VectorXd& u) const;
+  void note_passed_over(const NewtonState& state, ContactDoubts& doubts);
+  void note_passed_bounds(const NewtonState& state, ContactDoubts& doubts);
   Eigen::VectorXd push_of_active();
   int zone_of(int row) const;
   Eigen::VectorXd compliance_times(const Eigen::VectorXd& multipliers);
@@ -179,8 +184,9 @@ class NewtonSolver {
   KnownForces known_forces_;
   RowWeights weights_;
   double load_ = 0.0;
-  Eigen::VectorXd balance_;  ///< external less internal forces, on all degrees of freedom
-  double applied_ = 0.0;     ///< the largest component of the external forces
+  Eigen::VectorXd beginning_;  ///< violations of the rows where the iteration begins
+  Eigen::VectorXd balance_;    ///< external less internal forces, on all degrees of freedom
+  double applied_ = 0.0;       ///< the largest component of the external forces
   HeldReactions held_;
   int steps_ = 0;  ///< accepted so far
   TangentKind prediction_;

@@ -95,6 +95,7 @@ std::optional<double> NewtonSolver::settle_conditions(NewtonState& state) {
     for (SparseRows::InnerIterator it(rows.rows, row); it; ++it)
       problem.scale[row] += magnitudes[elimination_.kept()[static_cast<std::size_t>(it.col())]] * std::abs(it.value());
   problem.scale = problem.scale.cwiseMax(std::numeric_limits<double>::min());
+  if (passes_over()) problem.beginning = beginning_;
 
   const bool is_exact = !by_compliance() || schur_->is_exact();
   ActiveSetSolution solution = solve_conditions(problem);
@@ -162,7 +163,33 @@ std::vector<double> NewtonSolver::pushed_back(std::size_t zones) {
   return result;
 }
 
+/// Of the reduced rows, at displacements that need not be those of the step's end.
+Eigen::VectorXd NewtonSolver::violations_at(const Eigen::VectorXd& u) const {
+  const Eigen::VectorXd all = conditions_->full.rows * u - conditions_->full.bounds;
+  return all(reduced_.origin);
+}
+
 void NewtonSolver::note_doubts(const NewtonState& state, ContactDoubts& doubts) {
+  note_passed_bounds(state, doubts);
+  if (passes_over() && row_multipliers_.size() > 0) note_passed_over(state, doubts);
+}
+
+/// Open nodes that lie inside the master.
+void NewtonSolver::note_passed_over(const NewtonState& state, ContactDoubts& doubts) {
+  Eigen::VectorXd depth = reduced_.inequalities.rows * state.reduced - reduced_.inequalities.bounds;
+  for (const int row : active_) depth[row] = 0.0;
+  for (Eigen::Index row = 0; row < depth.size(); ++row) {
+    if (!(depth[row] > rounding_of_length * extent(mesh_))) continue;
+    const int slot = conditions_->row_slots[static_cast<std::size_t>(reduced_.origin[static_cast<std::size_t>(row)])];
+    doubts.note({.kind = DoubtKind::passed_over,
+                 .zone = zone_of(static_cast<int>(row)),
+                 .share = depth[row],
+                 .length = depth[row],
+                 .node = conditions_->pairs[static_cast<std::size_t>(slot)].slave});
+  }
+}
+
+void NewtonSolver::note_passed_bounds(const NewtonState& state, ContactDoubts& doubts) {
   const Eigen::VectorXd& softness = reduced_.inequalities.softness;
   if (active_.empty() || (softness.isZero(0.0) && !by_gradients())) return;
   const Eigen::VectorXd past =

@@ -27,7 +27,7 @@ struct Outcome {
   long columns_solved = 0;
 };
 
-Outcome solve(const DenseProblem& problem, std::vector<int> guess = {}) {
+Outcome solve(const DenseProblem& problem, std::vector<int> guess = {}, const Eigen::VectorXd& beginning = {}) {
   Outcome outcome;
   const Eigen::LDLT<Eigen::MatrixXd> factor(problem.stiffness);
   SchurComplement schur(problem.rows.sparseView(), [&](Eigen::Ref<Eigen::MatrixXd> rhs) {
@@ -40,6 +40,7 @@ Outcome solve(const DenseProblem& problem, std::vector<int> guess = {}) {
   active_set.scale = problem.bounds.cwiseAbs() + problem.rows.cwiseAbs() * free.cwiseAbs();
   active_set.scale = active_set.scale.cwiseMax(1e-30);
   active_set.guess = std::move(guess);
+  active_set.beginning = beginning;
   outcome.solution = solve_active_set(schur, active_set);
   outcome.u = free - factor.solve(problem.rows.transpose() * outcome.solution.multipliers);
   return outcome;
@@ -196,6 +197,25 @@ TEST_CASE("Three conditions that pairwise hold but not together") {
   const ActiveSetSolution solution = solve(problem).solution;
   REQUIRE(solution.verdict == ActiveSetVerdict::contradictory);
   CHECK(solution.contradiction.size() == 3);
+}
+
+TEST_CASE("A row that the free solution holds stays open unless it is violated more than at the beginning") {
+  // The ends of a stiff lever on two springs at 2/5 and 3/5 of its length, above bounds of 0.1 and -0.05.
+  const Eigen::Vector2d near(0.6, 0.4), far(0.4, 0.6);
+  DenseProblem lever;
+  lever.stiffness = near * near.transpose() + far * far.transpose();
+  lever.rows = -Eigen::Matrix2d::Identity();
+  lever.bounds = Eigen::Vector2d(-0.1, 0.05);
+  const auto ends = [&](const Eigen::Vector2d& force, const Eigen::VectorXd& beginning) {
+    lever.force = force;
+    return solve(lever, {}, beginning).u;
+  };
+  const Eigen::Vector2d at_bounds(0.1, -0.05);
+  const Eigen::Vector2d lifts(0.006, -0.006), lifts_less(0.002, -0.004);  // to (0.15, -0.15), (0.074, -0.076)
+  CHECK((ends(lifts, {}) - at_bounds).norm() < 1e-12);
+  CHECK((ends(lifts, Eigen::Vector2d(0.1, -0.05)) - Eigen::Vector2d(0.15 - 12.0 / 130.0, -0.05)).norm() < 1e-12);
+  CHECK((ends(lifts, Eigen::Vector2d(0.04, -0.05)) - at_bounds).norm() < 1e-12);
+  CHECK((ends(lifts_less, Eigen::Vector2d(0.1, -0.05)) - at_bounds).norm() < 1e-12);
 }
 
 TEST_CASE("Only rows that get active cost a solve, and only once") {
