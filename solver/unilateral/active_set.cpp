@@ -11,6 +11,8 @@ namespace comma::solver {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
+/// A row that overlaps moves in when it does so by more than this share: what moves less is where it was.
+constexpr double still = 1e-6;
 /// Rounds of the packet phase: it either settles in a few or circles.
 constexpr int packet_rounds = 12;
 /// From so many rows on the factor gains by blocks: below, they are not worth the copies.
@@ -41,6 +43,7 @@ class ActiveSetSolver {
       make_dual_feasible();
       settle_one_by_one();
     }
+    if (may_pass_over()) go_from_beginning();
     return finish();
   }
 
@@ -117,17 +120,10 @@ class ActiveSetSolver {
       violation_ -= multipliers_[static_cast<Eigen::Index>(i)] * schur_.column(active_[i]);
   }
 
-  /// Whether a row stays open though it is violated (ActiveSetProblem::beginning).
-  bool is_passed_over(int row) const {
-    return problem_.beginning.size() > 0 && problem_.excess[row] <= tolerance(row) &&
-           violation_[row] <= problem_.beginning[row] + tolerance(row);
-  }
-
   std::vector<int> violated_rows() const {
     std::vector<int> rows;
     for (int row = 0; row < schur_.size(); ++row)
-      if (!is_active_[row] && !redundant_[row] && violation_[row] > tolerance(row) && !is_passed_over(row))
-        rows.push_back(row);
+      if (!is_active_[row] && !redundant_[row] && violation_[row] > tolerance(row)) rows.push_back(row);
     return rows;
   }
 
@@ -191,7 +187,7 @@ class ActiveSetSolver {
     int worst = -1;
     double largest = violation_tolerance;
     for (int row = 0; row < schur_.size(); ++row) {
-      if (is_active_[row] || redundant_[row] || is_passed_over(row)) continue;
+      if (is_active_[row] || redundant_[row]) continue;
       const double relative = violation_[row] / problem_.scale[row];
       if (relative > largest) {
         largest = relative;
@@ -280,6 +276,64 @@ class ActiveSetSolver {
 
   /// The exact equalities may leave a multiplier at minus a rounding: it counts as zero.
   void clear_rounding() { multipliers_ = multipliers_.cwiseMax(0.0); }
+
+  /// Whether any of the active rows is one that a walk from the beginning may miss: without these both ways end alike,
+  /// since the solution is that of the other rows alone.
+  bool may_pass_over() const {
+    return verdict_ == ActiveSetVerdict::solved && problem_.beginning.size() > 0 &&
+           std::ranges::any_of(active_, [&](int row) {
+             return problem_.excess[row] <= tolerance(row) && problem_.beginning[row] > tolerance(row);
+           });
+  }
+
+  /// The rows that the free solution violates are active at first. The displacements go from the beginning to where the
+  /// active rows are closed, as far as the next row on the way, which becomes active; where they arrive the row that
+  /// pulls most leaves. What moves away from its bound is on no way.
+  void go_from_beginning() {
+    const std::vector<int> exact = active_;
+    std::vector<int> first;
+    for (int row = 0; row < schur_.size(); ++row)
+      if (problem_.excess[row] > tolerance(row)) first.push_back(row);
+    schur_.require(first);
+    keep_only(first);
+    solve_equalities();
+    std::fill(redundant_.begin(), redundant_.end(), 0);
+    Eigen::VectorXd now = problem_.beginning;
+    for (const int last = iterations_ + problem_.max_iterations; iterations_ < last; ++iterations_) {
+      const auto [share, row] = next_on_the_way(now);
+      if (row >= 0) {
+        now += share * (violation_ - now);
+        schur_.require(std::span<const int>(&row, 1));
+        redundant_[row] = enter(row) ? 0 : 1;
+      } else {
+        now = violation_;
+        Eigen::Index most = 0;
+        if (multipliers_.size() == 0 || multipliers_.minCoeff(&most) >= 0.0) return;
+        leave(static_cast<int>(most));
+      }
+      solve_equalities();
+    }
+    keep_only(exact);
+    solve_equalities();
+    clear_rounding();
+  }
+
+  /// How far displacements can go, as a share of the whole way, and the row that stops them; -1: none does.
+  std::pair<double, int> next_on_the_way(const Eigen::VectorXd& now) const {
+    double share = 1.0;
+    int next = -1;
+    for (int row = 0; row < schur_.size(); ++row) {
+      const double nearer = violation_[row] - now[row];
+      if (is_active_[row] || redundant_[row] || violation_[row] <= tolerance(row) ||
+          nearer <= tolerance(row) + still * std::max(0.0, now[row]))
+        continue;
+      const double reached = std::max(0.0, -now[row] / nearer);
+      if (reached >= share) continue;
+      share = reached;
+      next = row;
+    }
+    return {share, next};
+  }
 
   ActiveSetSolution finish() {
     ActiveSetSolution solution;

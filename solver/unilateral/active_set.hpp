@@ -19,9 +19,9 @@ struct ActiveSetProblem {
   Eigen::VectorXd scale;
   std::vector<int> guess;     ///< rows that were active before
   int max_iterations = 1000;  ///< changes of the active set, at most
-  /// A u - b (m) where the iteration begins that leads to u0; empty: nothing is passed over. The active set of
-  /// Code_Aster starts with the rows that u0 violates and then takes what comes nearer (R5.03.50; found from the lists
-  /// that 17.3 prints): of rows that u0 holds those stay open whose violation in the end is no larger than here.
+  /// A u - b (m) where the iteration begins that leads to u0. Not empty: the solution is that of a walk from there,
+  /// which the active set of Code_Aster is (R5.03.50; found from the lists that 17.3 prints). It may leave rows
+  /// violated: those that u0 holds and that end less violated than here.
   Eigen::VectorXd beginning;
 };
 

@@ -75,6 +75,7 @@ int NewtonSolver::solve(double time, const Eigen::VectorXd& external, Eigen::Vec
       forget_stiffness();
     ++counters_.newton_iterations;
     const Eigen::VectorXd before = state.reduced, where = state.u, balance = balance_;
+    if (passes_over() && row_multipliers_.size() > 0) beginning_ = violations_at(state.u);
     Correction correction = correct(state, offset);
     const Eigen::VectorXd change = state.u - where;
     if (relations_.update) offset = relations_.update(time, state);
@@ -184,10 +185,7 @@ NewtonSolver::Correction NewtonSolver::correct(NewtonState& state, const Eigen::
     correction.changes = mixed_->correct(before, offset, state.reduced);
   } else {
     state.reduced = before + step;
-    if (row_multipliers_.size()) {
-      if (passes_over()) beginning_ = violations_at(state.u);
-      correction = correct_with_conditions(state);
-    }
+    if (row_multipliers_.size()) correction = correct_with_conditions(state);
   }
   double size = 0.0, change = 0.0;
   for (Eigen::Index k = 0; k < state.reduced.size(); ++k) {
