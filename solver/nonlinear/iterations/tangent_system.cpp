@@ -134,7 +134,8 @@ SymmetricMatrix TangentSystem::stiffness(const Eigen::VectorXd& u, TangentKind k
 
 Eigen::VectorXd TangentSystem::reduced_forces(const Eigen::VectorXd& u, const Eigen::VectorXd& d,
                                               TangentKind kind) const {
-  return elimination_.transformation().transpose() * forces(u, d, kind);
+  const Eigen::VectorXd all = is_constant() ? Eigen::VectorXd(forces(u, d, kind)) : Eigen::VectorXd(held_columns_ * d);
+  return elimination_.transformation().transpose() * all;
 }
 
 Eigen::MatrixXd TangentSystem::forces(const Eigen::VectorXd& u, const Eigen::MatrixXd& d, TangentKind kind) const {
@@ -178,19 +179,25 @@ SymmetricMatrix TangentSystem::reduce(SymmetricMatrix whole) const {
 void TangentSystem::take_held_rows(const SymmetricMatrix& whole, const SkewMatrix& skew_half) {
   std::vector<char> held(static_cast<std::size_t>(dofs_.size()), 1);
   for (const int dof : elimination_.kept()) held[static_cast<std::size_t>(dof)] = 0;
-  std::vector<Eigen::Triplet<double>> terms;
+  std::vector<Eigen::Triplet<double>> rows, columns;
+  const auto take_term = [&](int i, int j, double value) {
+    if (held[static_cast<std::size_t>(i)] != 0) rows.emplace_back(i, j, value);
+    if (held[static_cast<std::size_t>(j)] != 0) columns.emplace_back(i, j, value);
+  };
   const auto take = [&](const auto& lower, double across) {
     for (int column = 0; column < lower.outerSize(); ++column)
       for (typename std::decay_t<decltype(lower)>::InnerIterator it(lower, column); it; ++it) {
         const auto i = static_cast<int>(it.row()), j = static_cast<int>(it.col());
-        if (held[static_cast<std::size_t>(i)] != 0) terms.emplace_back(i, j, it.value());
-        if (i != j && held[static_cast<std::size_t>(j)] != 0) terms.emplace_back(j, i, across * it.value());
+        take_term(i, j, it.value());
+        if (i != j) take_term(j, i, across * it.value());
       }
   };
   take(whole, 1.0);
   take(skew_half, -1.0);
   held_rows_.resize(dofs_.size(), dofs_.size());
-  held_rows_.setFromTriplets(terms.begin(), terms.end());
+  held_rows_.setFromTriplets(rows.begin(), rows.end());
+  held_columns_.resize(dofs_.size(), dofs_.size());
+  held_columns_.setFromTriplets(columns.begin(), columns.end());
 }
 
 std::string TangentSystem::unheld() const { return springs_.empty() ? std::string() : parts_on_springs(nullptr); }

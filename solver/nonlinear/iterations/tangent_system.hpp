@@ -50,8 +50,8 @@ class TangentSystem {
   /// Whether there is a factorisation, of whatever displacement.
   bool is_ready() const { return factorised_; }
 
-  /// T^T K d with the tangent at u: the forces on the reduced unknowns that a displacement d of all degrees of freedom
-  /// would cause.
+  /// T^T K d of a displacement d of the unknowns that conditions eliminate: the forces on the reduced ones, by the
+  /// tangent that was factorised last, or by the constant one.
   Eigen::VectorXd reduced_forces(const Eigen::VectorXd& u, const Eigen::VectorXd& d, TangentKind kind) const;
   /// K d of each column, on all degrees of freedom.
   Eigen::MatrixXd forces(const Eigen::VectorXd& u, const Eigen::MatrixXd& d, TangentKind kind) const;
@@ -176,6 +176,7 @@ class TangentSystem {
   Eigen::VectorXd row_sizes_, rotation_sizes_;
   mutable std::vector<int> body_of_node_;  ///< once asked for
   RowMatrix held_rows_;                    ///< of the stiffness, empty at unknowns that are not eliminated
+  RowMatrix held_columns_;                 ///< its columns there
   int lost_digits_ = 0;
   bool is_indefinite_ = false;
   bool factorised_ = false;
