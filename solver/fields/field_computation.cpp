@@ -305,7 +305,8 @@ Field FieldComputation::largest_stresses(std::size_t step) {
 }
 
 Field FieldComputation::section_strains(std::size_t step) {
-  return strains_of_forces("DEGE_ELNO", section_forces(forces_at_nodes(step)), element_field("EFGE_ELNO", step), step);
+  const ElementField of_plates = has_plates() ? plate_forces_at_corners(step) : element_field("EFGE_ELNO", step);
+  return strains_of_forces("DEGE_ELNO", section_forces(forces_at_nodes(step)), of_plates, step);
 }
 
 Field FieldComputation::section_strains_at_points(std::size_t step) {

@@ -96,6 +96,7 @@ class FieldComputation {
   ElementField plate_forces(std::size_t step);
   std::optional<ElementField> plate_forces_beside(std::size_t step);
   ElementField plate_forces_at_nodes(std::size_t step);
+  ElementField plate_forces_at_corners(std::size_t step);
   ElementField whole_plate_forces(std::size_t step);
   ElementField layer_strains_of(const ElementField& plate_forces) const;
   /// Stresses and forces of elements at their nodes, with the forces of plates at their corners.

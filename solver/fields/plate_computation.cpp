@@ -60,9 +60,15 @@ ElementField FieldComputation::forces_at_nodes(std::size_t step) {
   return side_by_side(others, plate_forces_at_nodes(step));
 }
 
-// What plates have beside the forces of their displacements is known at the points of integration alone.
+// What plates have beside the forces of their displacements is known at the points of integration alone, and of a
+// nonlinear computation Code_Aster 17.3 takes all from there.
 ElementField FieldComputation::plate_forces_at_nodes(std::size_t step) {
-  if (plate_forces_beside(step)) return to_element_nodes(*problem_.model, plate_forces(step));
+  if (problem_.behaviours || plate_forces_beside(step)) return to_element_nodes(*problem_.model, plate_forces(step));
+  return plate_forces_at_corners(step);
+}
+
+// Those of the displacements there.
+ElementField FieldComputation::plate_forces_at_corners(std::size_t step) {
   ElementField forces = assembler_.plate_forces(to_dofs(displacement(step), dofs_), PlatePlaces::corners,
                                                 problem_.loads, result_.steps[step].instant);
   forces.support = Support::element_node;
