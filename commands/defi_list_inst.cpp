@@ -178,6 +178,18 @@ void warn_of_repeated_events(const Call& call, Context& context) {
   }
 }
 
+// The largest SUBD_NIVEAU bounds how often steps are cut, whichever event does it (Code_Aster 17.3).
+void share_depth(solver::StepPlan& plan) {
+  std::vector<solver::StepCutting*> rules;
+  if (plan.cutting) rules.push_back(&*plan.cutting);
+  for (solver::StepEvent& event : plan.events)
+    if (event.cutting) rules.push_back(&*event.cutting);
+  std::erase_if(rules, [](const solver::StepCutting* rule) { return rule->automatic; });
+  int deepest = 0;
+  for (const solver::StepCutting* rule : rules) deepest = std::max(deepest, rule->depth);
+  for (solver::StepCutting* rule : rules) rule->depth = deepest;
+}
+
 // Of several occurrences for an event the last one counts; without one for ERREUR steps that fail are cut all the same
 // (U4.34.03).
 void read_failures(const Call& call, solver::StepPlan& plan) {
@@ -199,6 +211,7 @@ void read_failures(const Call& call, solver::StepPlan& plan) {
     plan.further_iterations =
         given.text("ACTION") == "ITER_SUPPL" ? static_cast<double>(given.integer("PCENT_ITER_PLUS")) / 100.0 : 0.0;
   }
+  share_depth(plan);
 }
 
 }  // namespace
