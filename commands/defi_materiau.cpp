@@ -215,6 +215,14 @@ solver::IsotropicElasticity small_strain_elasticity(const Keywords& law) {
   return elasticity;
 }
 
+solver::HardeningRestoration restoration(const Keywords& law) {
+  const solver::HardeningRestoration result{property(law, "COEF_ECRO"), property(law, "TAU_INF"), law.real("TEMP_MINI"),
+                                            law.real("TEMP_MAXI")};
+  if (result.to > result.from) return result;
+  throw DiagnosticError("out-of-bounds", "DEFI_MATERIAU/REST_ECRO: TEMP_MAXI is not above TEMP_MINI",
+                        law.span_of("TEMP_MAXI"), "hardening is restored at temperatures between the two");
+}
+
 void add_plasticity(const Call& call, solver::Plasticity& plasticity) {
   for (const char* keyword : {"ECRO_LINE", "ECRO_LINE_FO"})
     if (call.has(keyword)) plasticity.linear = linear_hardening(call.factor(keyword));
@@ -234,6 +242,7 @@ void add_plasticity(const Call& call, solver::Plasticity& plasticity) {
   if (call.has("ELAS_HYPER")) plasticity.hyperelasticity = hyperelasticity(call.factor("ELAS_HYPER"));
   for (const char* keyword : {"PRAGER", "PRAGER_FO"})
     if (call.has(keyword)) plasticity.prager = property(call.factor(keyword), "C");
+  if (call.has("REST_ECRO")) plasticity.restoration = restoration(call.factor("REST_ECRO"));
 }
 
 solver::ContactSpring contact_spring(const Keywords& law) {

@@ -108,11 +108,12 @@ bool ignores(const solver::StaticProblem& problem, int cell, const StrainingVari
   const solver::Elasticity* elasticity = has_mass(*problem.model, cell) ? elasticity_of(problem, cell) : nullptr;
   const auto* isotropic = elasticity != nullptr ? std::get_if<solver::IsotropicElasticity>(elasticity) : nullptr;
   if (isotropic == nullptr || !is_missing(variable.coefficient(*isotropic))) return false;
-  const solver::Relation relation = problem.behaviours && !problem.behaviours->empty()
-                                        ? (*problem.behaviours)[static_cast<std::size_t>(cell)].relation
-                                        : solver::Relation::elastic;
-  return solver::is_constant(*isotropic, problem.materials->by_cell[static_cast<std::size_t>(cell)]->plasticity,
-                             relation);
+  const solver::CellBehaviour behaviour = problem.behaviours && !problem.behaviours->empty()
+                                              ? (*problem.behaviours)[static_cast<std::size_t>(cell)]
+                                              : solver::CellBehaviour();
+  return !behaviour.restores_hardening &&
+         solver::is_constant(*isotropic, problem.materials->by_cell[static_cast<std::size_t>(cell)]->plasticity,
+                             behaviour.relation);
 }
 
 void warn_of_missing_expansion(const interpreter::Call& call, const solver::StaticProblem& problem, Context& context) {

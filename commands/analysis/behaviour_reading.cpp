@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include <fmt/format.h>
+
 #include "commands/selection.hpp"
+#include "interpreter/diagnostic.hpp"
 
 namespace comma::commands {
 
@@ -37,6 +40,34 @@ constexpr std::pair<std::string_view, solver::Kinematics> kinematics[] = {
     {"PETIT_REAC", solver::Kinematics::updated},   {"GROT_GDEP", solver::Kinematics::large_rotations},
 };
 
+// As Code_Aster 17.3: what hardens otherwise has no single strain that could be taken away.
+void require_restorable(const Keywords& keywords) {
+  static constexpr std::string_view restorable[] = {"VMIS_ISOT_LINE", "VMIS_ISOT_TRAC", "VMIS_ECMI_LINE"};
+  const std::string relation = keywords.text("RELATION");
+  if (std::ranges::find(restorable, relation) != std::end(restorable)) return;
+  throw interpreter::DiagnosticError(
+      "unsupported",
+      fmt::format("COMPORTEMENT: POST_INCR='REST_ECRO' does not restore the hardening of RELATION='{}'", relation),
+      keywords.span_of("POST_INCR"), "it goes with VMIS_ISOT_LINE, VMIS_ISOT_TRAC and VMIS_ECMI_LINE");
+}
+
+// Of solids and plane bodies alone, as in Code_Aster 17.3.
+void require_restorable(const solver::BehaviourOfCells& behaviours, const solver::Model& model, const Keywords& call) {
+  for (std::size_t cell = 0; cell < behaviours.size(); ++cell) {
+    const solver::Formulation formulation = model.formulations[cell];
+    const bool is_body = solver::continuum_dimension(formulation) > 0 && solver::mixed_field_count(formulation) == 0;
+    if (!behaviours[cell].restores_hardening || is_body || formulation == solver::Formulation::none) continue;
+    const auto& occurrences = call.factors("COMPORTEMENT");
+    const auto restoring = std::ranges::find_if(occurrences, [](const Keywords& any) { return any.has("POST_INCR"); });
+    throw interpreter::DiagnosticError(
+        "unsupported",
+        fmt::format("COMPORTEMENT: POST_INCR='REST_ECRO' restores the hardening of solids and plane bodies without a "
+                    "pressure among their unknowns, and cell {} is none",
+                    model.mesh->cell_name(static_cast<int>(cell))),
+        restoring->span_of("POST_INCR"), "name groups of such cells (GROUP_MA)");
+  }
+}
+
 solver::CellBehaviour behaviour_of(const Keywords& keywords) {
   const auto relation =
       std::ranges::find(relations, keywords.text("RELATION"), &std::pair<std::string_view, solver::Relation>::first);
@@ -45,6 +76,10 @@ solver::CellBehaviour behaviour_of(const Keywords& keywords) {
   solver::CellBehaviour behaviour{deformation->second, relation->second};
   for (const char* const name : {"RESI_INTE", "RESI_INTE_RELA"})
     if (keywords.has(name)) behaviour.return_tolerance = keywords.real(name);
+  if (keywords.has("POST_INCR")) {
+    require_restorable(keywords);
+    behaviour.restores_hardening = true;
+  }
   return behaviour;
 }
 
@@ -86,6 +121,7 @@ std::shared_ptr<const solver::BehaviourOfCells> behaviours_of(const Keywords& ca
     for (const int cell : cells_of_behaviour(keywords, mesh))
       (*result)[static_cast<std::size_t>(cell)] = behaviour_on(behaviour, model, cell, initial, has_variables);
   }
+  require_restorable(*result, model, call);
   if (std::ranges::all_of(*result, [](const auto& each) { return each == solver::CellBehaviour{}; })) return nullptr;
   return result;
 }

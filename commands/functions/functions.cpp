@@ -260,16 +260,16 @@ solver::TimeFunction time_function(const ConceptPtr& handle, const Span& span) {
 
 namespace {
 
-/// `names`: of the three coordinates and time.
-solver::FieldFunction function_of(const ConceptPtr& handle, const std::vector<std::string>& names, const Span& span) {
+/// Of `known` quantities, which are called `names`.
+template <std::size_t N>
+auto function_of(const ConceptPtr& handle, const std::vector<std::string>& names, const Span& span) {
   auto function = function_behind(handle);
   const auto places = places_of(*function, handle->name, names, span);
-  std::array<std::size_t, 4> order{};
+  std::array<std::size_t, N> order{};
   std::copy(places.begin(), places.end(), order.begin());
   const std::size_t count = places.size();
-  return [function = std::move(function), order, count](const solver::Point& at, double time) {
-    const std::array<double, 4> known = {at[0], at[1], at[2], time};
-    std::array<double, 4> arguments{};
+  return [function = std::move(function), order, count](const std::array<double, N>& known) {
+    std::array<double, N> arguments{};
     for (std::size_t i = 0; i < count; ++i) arguments[i] = known[order[i]];
     return function->evaluate({arguments.data(), count});
   };
@@ -278,20 +278,19 @@ solver::FieldFunction function_of(const ConceptPtr& handle, const std::vector<st
 }  // namespace
 
 solver::FieldFunction field_function(const ConceptPtr& handle, const Span& span) {
-  return function_of(handle, place_and_time(), span);
+  return [value = function_of<4>(handle, place_and_time(), span)](const solver::Point& at, double time) {
+    return value({at[0], at[1], at[2], time});
+  };
 }
 
 solver::FieldFunction following_function(const ConceptPtr& handle, const Span& span) {
   const auto& parameters = function_behind(handle)->parameters();
   if (std::ranges::none_of(parameters, is_deformed)) return field_function(handle, span);
-  if (std::ranges::any_of(parameters,
-                          [](const std::string& name) { return name == "X" || name == "Y" || name == "Z"; })) {
-    throw DiagnosticError(
-        "unsupported",
-        handle->name + " depends on the initial and on the deformed place, of which comma gives a function one", span,
-        "write it with X, Y, Z or with XF, YF, ZF alone");
-  }
-  return solver::DeformedPlaceFunction{function_of(handle, {"XF", "YF", "ZF", "INST"}, span)};
+  return solver::DeformedPlaceFunction{
+      [value = function_of<7>(handle, {"X", "Y", "Z", "XF", "YF", "ZF", "INST"}, span)](
+          const solver::Point& initial, const solver::Point& now, double time) {
+        return value({initial[0], initial[1], initial[2], now[0], now[1], now[2], time});
+      }};
 }
 
 double evaluate_named(const FunctionConcept& function, const std::vector<std::string>& names,

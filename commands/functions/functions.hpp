@@ -112,8 +112,7 @@ solver::TimeFunction time_function(const interpreter::ConceptPtr& handle, const 
 /// The same for place and time: X, Y, Z and INST.
 solver::FieldFunction field_function(const interpreter::ConceptPtr& handle, const interpreter::Span& span);
 /// Of a load that may follow the body: besides X, Y, Z the function may depend on XF, YF, ZF, the place on the deformed
-/// body, and is then a solver::DeformedPlaceFunction. Throws DiagnosticError `unsupported` for one that depends on
-/// both.
+/// body, and is then a solver::DeformedPlaceFunction.
 solver::FieldFunction following_function(const interpreter::ConceptPtr& handle, const interpreter::Span& span);
 /// The values of parameters by name. Throws DiagnosticError `unknown-parameter` when one is missing.
 double evaluate_named(const FunctionConcept& function, const std::vector<std::string>& names,

@@ -13,8 +13,7 @@ using Eigen::Vector3d;
 
 double value_of(double number, const FieldFunction& function, const CellPoint& initial, const CellPoint& now,
                 double time) {
-  if (!function) return number;
-  return function(to_point(is_of_deformed_place(function) ? now.at : initial.at), time);
+  return function ? value_of_moved(function, to_point(initial.at), to_point(now.at), time) : number;
 }
 
 Matrix3d cross_matrix(const Vector3d& v) {
@@ -100,9 +99,10 @@ FollowerForces::Traction FollowerForces::traction(const SkinLoad& skin, const Ce
     return traction;
   }
   const PressureLoad& load = *skin.pressure;
-  const bool deformed = is_of_deformed_place(load.pressure_function);
-  traction.pressure =
-      skin.factor * pressure_at(load, *model_.mesh, sample, to_point(deformed ? now.at : initial.at), time_);
+  const double pressure = is_of_deformed_place(load.pressure_function)
+                              ? value_of(load.pressure, load.pressure_function, initial, now, time_)
+                              : pressure_at(load, *model_.mesh, sample, to_point(initial.at), time_);
+  traction.pressure = skin.factor * pressure;
   traction.shear = skin.factor * value_of(load.shear, load.shear_function, initial, now, time_);
   traction.force = traction.shear * now.tangents.col(0) - traction.pressure * now.normal(own);
   return traction;
@@ -126,7 +126,8 @@ Eigen::VectorXd FollowerForces::at(const Eigen::VectorXd& u) const {
   return forces;
 }
 
-Vector3d FollowerForces::pressure_gradient(const PressureLoad& load, double factor, const CellPoint& now) const {
+Vector3d FollowerForces::pressure_gradient(const PressureLoad& load, double factor, const CellPoint& initial,
+                                           const CellPoint& now) const {
   Vector3d gradient = Vector3d::Zero();
   if (!is_of_deformed_place(load.pressure_function)) return gradient;
   // Half of the digits go into the difference, half into its accuracy.
@@ -137,9 +138,10 @@ Vector3d FollowerForces::pressure_gradient(const PressureLoad& load, double fact
     Vector3d before = now.at, after = now.at;
     before[c] -= step;
     after[c] += step;
-    gradient[c] = factor *
-                  (load.pressure_function(to_point(after), time_) - load.pressure_function(to_point(before), time_)) /
-                  (2.0 * step);
+    const auto value = [&](const Vector3d& place) {
+      return value_of_moved(load.pressure_function, to_point(initial.at), to_point(place), time_);
+    };
+    gradient[c] = factor * (value(after) - value(before)) / (2.0 * step);
   }
   return gradient;
 }
@@ -151,8 +153,8 @@ Eigen::SparseMatrix<double> FollowerForces::tangent(const Eigen::VectorXd& u) co
     const double radius = axisymmetric ? now.at[0] : 1.0;
     const Traction acting = traction(load, sample, initial, now);
     const Vector3d normal = now.normal(dimension(model_.mesh->cell_types[load.cell]));
-    const Vector3d gradient =
-        load.pressure != nullptr ? pressure_gradient(*load.pressure, load.factor, now) : Vector3d(Vector3d::Zero());
+    const Vector3d gradient = load.pressure != nullptr ? pressure_gradient(*load.pressure, load.factor, initial, now)
+                                                       : Vector3d(Vector3d::Zero());
     const auto nodes = model_.mesh->cell(load.cell);
     for (std::size_t b = 0; b < nodes.size(); ++b) {
       const auto column = static_cast<Eigen::Index>(b);

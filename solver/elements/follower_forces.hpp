@@ -15,7 +15,7 @@ namespace comma::solver {
 
 /// Pressure p and shear q act as the traction -p n + q t on the boundary as it lies at the displacements u, whose
 /// normal n, tangent t and measure they take (Bonet, Wood, "Nonlinear continuum mechanics for finite element analysis",
-/// section 8.5). Functions take the initial place, or the deformed one where they are of that kind
+/// section 8.5). Functions take the initial place, and the deformed one where they are of that kind
 /// (deformed_place.hpp). A distributed force keeps its direction and acts on the measure of the moved boundary; its
 /// functions take the initial place. Axisymmetric loads are per radian of the deformed radius.
 class FollowerForces {
@@ -43,7 +43,8 @@ class FollowerForces {
   void each_point_of(const SkinLoad& load, const Eigen::VectorXd& u, Visit&& visit) const;
   Traction traction(const SkinLoad& load, const CellSample& sample, const CellPoint& initial,
                     const CellPoint& now) const;
-  Eigen::Vector3d pressure_gradient(const PressureLoad& load, double factor, const CellPoint& now) const;
+  Eigen::Vector3d pressure_gradient(const PressureLoad& load, double factor, const CellPoint& initial,
+                                    const CellPoint& now) const;
 
   const Model& model_;
   const DofMap& dofs_;

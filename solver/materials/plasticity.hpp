@@ -56,6 +56,14 @@ struct NonlinearHardeningOf {
 };
 using NonlinearHardening = NonlinearHardeningOf<double>;  ///< at a point
 
+/// How annealing takes hardening away between two temperatures (U4.43.01, REST_ECRO; restoration.hpp).
+struct HardeningRestoration {
+  Property speed{};      ///< COEF_ECRO
+  Property remainder{};  ///< TAU_INF: the share that is left in the end
+  double from = 0.0;     ///< the temperature at which it begins
+  double to = 0.0;       ///< that at which the speed is infinite
+};
+
 /// The energy of Signorini (see hyperelastic.hpp).
 struct Hyperelasticity {
   double c10 = 0.0;
@@ -72,6 +80,7 @@ struct Plasticity {
   std::optional<PowerHardening> power;
   std::optional<NonlinearHardeningOf<Property>> nonlinear;
   std::optional<Hyperelasticity> hyperelasticity;
+  std::optional<HardeningRestoration> restoration;
   std::optional<Property> prager;  ///< C: the centre of the yield surface moves by C times the plastic strain
 };
 

@@ -41,6 +41,8 @@ struct CellBehaviour {
   bool from_initial_state = false;
   /// By how much of the first yield stress a point in plane stress may miss its yield surface; 0: as rounding lets it.
   double return_tolerance = 0.0;
+  /// Annealing takes hardening away at the end of each step.
+  bool restores_hardening = false;
 
   auto operator<=>(const CellBehaviour&) const = default;
 };

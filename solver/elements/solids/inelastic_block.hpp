@@ -206,6 +206,8 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
 
   PlasticMaterial plastic_material(const BlockInput& input, int cell, const Material& material) const {
     const IsotropicElasticity& elasticity = isotropic_material(input, cell);
+    if (law_.restores_hardening() && !material.plasticity.restoration)
+      naming_cell(this->mesh_, cell, [] { throw_missing_material("REST_ECRO"); });
     PlasticMaterial result{
         &elasticity, &material.plasticity, solver::is_constant(elasticity, material.plasticity, law_.relation()), {}};
     if (result.constant)
@@ -213,6 +215,11 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
         return compressible(plastic_point(elasticity, material.plasticity, law_.relation(), MaterialPoint()));
       });
     return result;
+  }
+
+  const PlasticMaterial& plastic_material_of(int element) const {
+    return plastic_materials_[static_cast<std::size_t>(
+        plastic_material_of_element_[static_cast<std::size_t>(element)])];
   }
 
   static PlasticPoint compressible(PlasticPoint point) {
@@ -227,8 +234,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     PlasticPoint own;  ///< written when it varies alone
 
     Constants(const InelasticBlock& block, int element, int g, const Coordinates& x, const VariableState& state) {
-      const PlasticMaterial& material = block.plastic_materials_[static_cast<std::size_t>(
-          block.plastic_material_of_element_[static_cast<std::size_t>(element)])];
+      const PlasticMaterial& material = block.plastic_material_of(element);
       const auto& elastic = block.materials_[block.material_of_element_[element]];
       plastic = &material.point;
       const bool strained = elastic.strained(state);
@@ -261,6 +267,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
   }
 
   void remember_materials(const VariableState& state) {
+    since_ = state.time();
     for (int element = 0; element < this->map_.element_count(); ++element) {
       const Coordinates x = this->coordinates(element);
       for (int g = 0; g < this->point_count(); ++g) {
@@ -296,11 +303,21 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
     }
   }
 
-  /// Calls visitor(index of the point, H, response).
+  /// The response where a step ends.
+  PointResponse reached(int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient,
+                        const VariableState& state) const {
+    PointResponse response = respond(element, g, x, gradient, state, &PointLaw::respond);
+    if (law_.restores_hardening())
+      law_.restore(*plastic_material_of(element).plasticity->restoration, this->material_point(element, g, x, state),
+                   state.time() - since_, past_[point_index(element, g)], response);
+    return response;
+  }
+
+  /// Calls visitor(index of the point, H, response where a step ends).
   template <class Visitor>
   void visit(const Eigen::VectorXd& u, const VariableState& state, Visitor&& visitor) const {
     each_point(u, state, [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d& gradient) {
-      visitor(point_index(element, g), gradient, respond(element, g, x, gradient, state, &PointLaw::respond));
+      visitor(point_index(element, g), gradient, reached(element, g, x, gradient, state));
     });
   }
 
@@ -410,6 +427,7 @@ class InelasticBlock : public ContinuumBlock<Dim, Nodes, Axisymmetric> {
 
   PointLaw law_;
   std::vector<PointPast> past_;  ///< cells x points
+  double since_ = 0.0;           ///< when the step began
   std::optional<double> extrapolation_;
   std::vector<PlasticMaterial> plastic_materials_;
   std::vector<int> plastic_material_of_element_;

@@ -132,6 +132,7 @@ std::vector<std::string> variable_names(const CellBehaviour& behaviour) {
   if (behaviour.kinematics == Kinematics::logarithmic && !names.empty()) add_tensor(names, "T");
   if (behaviour.kinematics == Kinematics::multiplicative && !names.empty())
     for (int i = 1; i <= 6; ++i) names.push_back(fmt::format("SM{}", i));
+  if (behaviour.restores_hardening) names.emplace_back("ECROINIT");
   return names;
 }
 

@@ -170,11 +170,6 @@ const char* keyword_of(Relation relation) {
   }
 }
 
-[[noreturn]] void throw_missing(std::string_view keyword) {
-  throw Error("missing-material", fmt::format("the behaviour needs {} of the material", keyword),
-              "give it in DEFI_MATERIAU");
-}
-
 /// A radius of the yield surface, and a trial stress that flow lowers: without them a point would count as elastic in
 /// silence.
 void check_surface(const PlasticPoint& point) {
@@ -219,7 +214,7 @@ PlasticPoint point_of_relation(const IsotropicElasticity& elasticity, const Plas
   PlasticPoint point;
   set_elasticity(elastic.young, elastic.poisson, point);
   if (is_mixed(relation)) {
-    if (!plasticity.prager) throw_missing("PRAGER or PRAGER_FO");
+    if (!plasticity.prager) throw_missing_material("PRAGER or PRAGER_FO");
     point.kinematic = (*plasticity.prager)(at);
   }
   switch (relation) {
@@ -229,24 +224,24 @@ PlasticPoint point_of_relation(const IsotropicElasticity& elasticity, const Plas
     case Relation::hardening_spring:
       return point;
     case Relation::hyperelastic:
-      if (!plasticity.hyperelasticity) throw_missing("ELAS_HYPER");
+      if (!plasticity.hyperelasticity) throw_missing_material("ELAS_HYPER");
       point.hyperelasticity = &*plasticity.hyperelasticity;
       return point;
     case Relation::isotropic_linear:
     case Relation::reversible_linear:
     case Relation::mixed_linear:
-      if (!plasticity.linear) throw_missing(keyword_of(relation));
+      if (!plasticity.linear) throw_missing_material(keyword_of(relation));
       point.curve = linear_curve(*plasticity.linear, elastic.young, point.kinematic, at);
       return point;
     case Relation::kinematic_linear:
-      if (!plasticity.linear) throw_missing(keyword_of(relation));
+      if (!plasticity.linear) throw_missing_material(keyword_of(relation));
       point.kinematic = 2.0 / 3.0 * plastic_modulus(elastic.young, plasticity.linear->slope(at));
       point.curve = PiecewiseCurve{{{0.0, plasticity.linear->yield(at)}}, 0.0, false};
       return point;
     case Relation::isotropic_traction:
     case Relation::reversible_traction:
     case Relation::mixed_traction: {
-      if (!plasticity.traction) throw_missing(keyword_of(relation));
+      if (!plasticity.traction) throw_missing_material(keyword_of(relation));
       auto [curve, young] = traction_curve(*plasticity.traction, at);
       check_elastic_line(young, elastic.young);
       set_elasticity(young, elastic.poisson, point);
@@ -256,18 +251,18 @@ PlasticPoint point_of_relation(const IsotropicElasticity& elasticity, const Plas
       return point;
     }
     case Relation::asymmetric_linear:
-      if (!plasticity.asymmetric) throw_missing(keyword_of(relation));
+      if (!plasticity.asymmetric) throw_missing_material(keyword_of(relation));
       point.curve = linear_curve(plasticity.asymmetric->tension, elastic.young, 0.0, at);
       point.compression = linear_curve(plasticity.asymmetric->compression, elastic.young, 0.0, at);
       return point;
     case Relation::isotropic_power:
     case Relation::reversible_power: {
-      if (!plasticity.power) throw_missing(keyword_of(relation));
+      if (!plasticity.power) throw_missing_material(keyword_of(relation));
       point.curve = power_curve(*plasticity.power, elastic.young, at);
       return point;
     }
     case Relation::isotropic_nonlinear:
-      if (!plasticity.nonlinear) throw_missing(keyword_of(relation));
+      if (!plasticity.nonlinear) throw_missing_material(keyword_of(relation));
       point.curve = nonlinear_curve(*plasticity.nonlinear, at);
       return point;
   }
@@ -281,6 +276,11 @@ std::pair<double, double> hardening(const HardeningCurve& curve, double p) {
   if (const auto* power = std::get_if<PowerCurve>(&curve)) return on_power(*power, p);
   if (const auto* nonlinear = std::get_if<NonlinearHardening>(&curve)) return on_nonlinear(*nonlinear, p);
   return {std::numeric_limits<double>::infinity(), 0.0};
+}
+
+void throw_missing_material(std::string_view keyword) {
+  throw Error("missing-material", fmt::format("the behaviour needs {} of the material", keyword),
+              "give it in DEFI_MATERIAU");
 }
 
 bool is_constant(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation) {

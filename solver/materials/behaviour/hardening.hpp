@@ -1,6 +1,7 @@
 // R(p): how the radius of von Mises' yield surface grows with the cumulated plastic strain.
 #pragma once
 
+#include <string_view>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -46,6 +47,9 @@ struct PlasticPoint : PlasticModuli {
   const Hyperelasticity* hyperelasticity = nullptr;  ///< of rubber
   HardeningCurve compression = NoYield{};            ///< where it is another one than `curve`, that of tension
 };
+
+/// Throws Error `missing-material` naming the keyword that a behaviour lacks.
+[[noreturn]] void throw_missing_material(std::string_view keyword);
 
 /// Whether a relation finds the same at all points and times.
 bool is_constant(const IsotropicElasticity& elasticity, const Plasticity& plasticity, Relation relation);

@@ -31,6 +31,12 @@ bool moves(Relation relation) {
          relation == Relation::mixed_traction;
 }
 
+/// Whether annealing can take its hardening away.
+bool may_be_restored(Relation relation) {
+  return relation == Relation::isotropic_linear || relation == Relation::isotropic_traction ||
+         relation == Relation::mixed_linear;
+}
+
 /// As tensor components.
 Vector6d elastic_strain(const Vector6d& stress, const PlasticModuli& moduli) {
   const double pressure = stress.head<3>().sum() / 3.0;
@@ -94,6 +100,11 @@ PointLaw::PointLaw(const CellBehaviour& behaviour, bool in_plane) : behaviour_(b
       behaviour.kinematics != Kinematics::green_lagrange)
     throw Error("unsupported", "elasticity along a curve of hardening has small strains, or Green and Lagrange's",
                 "take DEFORMATION='PETIT' or 'GREEN_LAGRANGE'");
+  if (behaviour.restores_hardening && !may_be_restored(behaviour.relation))
+    throw Error("unsupported",
+                "POST_INCR='REST_ECRO' restores the hardening of VMIS_ISOT_LINE, VMIS_ISOT_TRAC and "
+                "VMIS_ECMI_LINE alone",
+                "take one of these relations, or leave POST_INCR out");
   if (behaviour.kinematics != Kinematics::multiplicative) return;
   if (in_plane)
     throw Error("unsupported", "the multiplicative split of strains is not known in plane stress",
@@ -134,7 +145,9 @@ bool PointLaw::keeps_strain_across() const {
   return behaviour_.relation == Relation::isotropic_nonlinear && in_plane_ && has_small_strains(behaviour_.kinematics);
 }
 
-int PointLaw::variable_count() const { return own_count() + (keeps_tensor(behaviour_.kinematics) ? tensor_size : 0); }
+int PointLaw::variable_count() const {
+  return own_count() + (keeps_tensor(behaviour_.kinematics) ? tensor_size : 0) + (restores_hardening() ? 1 : 0);
+}
 
 PlasticState PointLaw::state_of(const PointPast& past) const {
   PlasticState state;
@@ -441,6 +454,14 @@ Vector6d PointLaw::stress_of_results(const Eigen::Matrix3d& gradient, const Poin
   return thins ? second_stress_of(gradient, response.reported) : response.stress;
 }
 
+void PointLaw::restore(const HardeningRestoration& restoration, const MaterialPoint& at, double time,
+                       const PointPast& past, PointResponse& response) const {
+  const auto before = static_cast<std::size_t>(variable_count() - 1);
+  const Hardened left = restored(restoration, at, time, {response.variables[0], past.variables[before]});
+  response.variables[0] = left.strain;
+  response.variables[before] = left.before;
+}
+
 double PointLaw::flow_between(const std::array<double, most_variables>& before,
                               const std::array<double, most_variables>& after) const {
   return own_count() == 2 ? after[0] - before[0] : 0.0;
@@ -450,10 +471,10 @@ double PointLaw::flow_between(const std::array<double, most_variables>& before,
 /// - 9 mu^2 / (3 mu + R') s s^T / s_eq^2 with the deviator s where the step begins.
 PointResponse PointLaw::respond_extrapolated(const PointInput& input, double ratio) const {
   const bool is_known = behaviour_.relation == Relation::elastic || (own_count() == 2 && !in_plane_);
-  if (!is_known || is_large())
+  if (!is_known || is_large() || restores_hardening())
     throw Error("unsupported",
                 "METHODE='IMPLEX' extrapolates ELAS, VMIS_ISOT_LINE, VMIS_ISOT_TRAC and VMIS_ISOT_PUIS in small "
-                "strains alone, and not in plane stress",
+                "strains alone, without POST_INCR, and not in plane stress",
                 "take METHODE='NEWTON'");
   PointResponse response = respond_elastically(input);
   if (behaviour_.relation == Relation::elastic || !(input.past.flow > 0.0)) return response;

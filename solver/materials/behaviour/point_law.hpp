@@ -7,6 +7,7 @@
 
 #include <Eigen/Dense>
 
+#include "solver/materials/behaviour/restoration.hpp"
 #include "solver/materials/behaviour/von_mises.hpp"
 #include "solver/model/behaviour.hpp"
 
@@ -49,7 +50,7 @@ class PointLaw {
  public:
   /// `in_plane`: without stress across the plane. Throws Error `unsupported` for what does not go together: the
   /// multiplicative split with plane stress or with kinematic hardening, rubber with other strains than Green and
-  /// Lagrange's.
+  /// Lagrange's, hardening that is restored and is not that of VMIS_ISOT_LINE, VMIS_ISOT_TRAC or VMIS_ECMI_LINE.
   PointLaw(const CellBehaviour& behaviour, bool in_plane);
 
   /// Large strains have their forces on the deformed, small ones on the initial geometry.
@@ -64,13 +65,15 @@ class PointLaw {
   /// Whether the tangent never changes.
   bool is_linear() const { return !is_large() && behaviour_.relation == Relation::elastic; }
   Relation relation() const { return behaviour_.relation; }
+  bool restores_hardening() const { return behaviour_.restores_hardening; }
 
   /// Internal variables V1, V2 ...: the cumulated plastic strain and the indicator of flow (1 or 0) of isotropic
   /// hardening, by saturating exponentials the six plastic strains as well (not with the multiplicative split), and in
   /// plane stress and small strains the strain across the plane; the six of the back stress and the indicator of
   /// kinematic hardening; cumulated strain, indicator and back stress of both together; one zero of elasticity
   /// (U4.51.11). Logarithmic strains add the six components of their stress T, the multiplicative split those of (I -
-  /// b) / 2, b the whole elastic part (J^(2/3) that of determinant 1).
+  /// b) / 2, b the whole elastic part (J^(2/3) that of determinant 1). Behind all others stands the cumulated strain
+  /// before the hardening was restored.
   int variable_count() const;
 
   /// Throws Error `integration-failure`, `out-of-function`.
@@ -98,8 +101,13 @@ class PointLaw {
   /// The same as respond() for a point that goes on as in the last step, flowing where it flowed, `ratio` times as
   /// much: linear in the strain (R5.03.81; after Oliver, Huespe and Cante, Computer Methods in Applied Mechanics and
   /// Engineering 197, 2008). Throws Error `unsupported` but for elasticity and isotropic hardening in small strains,
-  /// without plane stress.
+  /// without plane stress, that is not restored.
   PointResponse respond_extrapolated(const PointInput& input, double ratio) const;
+  /// Takes away of what has been reached what annealing does in a step of length `time`, at whose end the point is
+  /// `at`. Throws what restored() does.
+  void restore(const HardeningRestoration& restoration, const MaterialPoint& at, double time, const PointPast& past,
+               PointResponse& response) const;
+
   /// By how much the cumulated plastic strain has grown; 0 for laws without one.
   double flow_between(const std::array<double, most_variables>& before,
                       const std::array<double, most_variables>& after) const;

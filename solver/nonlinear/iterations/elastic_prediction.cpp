@@ -58,10 +58,11 @@ void ElasticPrediction::add_cell(const StaticProblem& problem, int cell, const E
   const Mesh& mesh = *problem.model->mesh;
   const CellBehaviour behaviour =
       problem.behaviours ? (*problem.behaviours)[static_cast<std::size_t>(cell)] : CellBehaviour();
-  if (!hardens_isotropically(behaviour.relation) || behaviour.kinematics != Kinematics::small) {
+  if (!hardens_isotropically(behaviour.relation) || behaviour.kinematics != Kinematics::small ||
+      behaviour.restores_hardening) {
     throw Error("unsupported",
                 fmt::format("cell {}: an elastic prediction controls von Mises plasticity with isotropic hardening in "
-                            "small strains alone",
+                            "small strains alone, without POST_INCR='REST_ECRO'",
                             mesh.cell_name(cell)),
                 "name cells with such a law, or control a displacement (DDL_IMPO, LONG_ARC)");
   }

@@ -79,8 +79,9 @@ TEST_CASE("the tangent of pressures that follow is their derivative", "[loads]")
   };
   const auto constant = [](PressureLoad& load) { load.pressure = 3.0; };
   const auto varying = [](PressureLoad& load) {
-    load.pressure_function = DeformedPlaceFunction{
-        [](const Point& at, double time) { return time * (1.0 + at[0] * at[0] - at[1] + 0.5 * at[2]); }};
+    load.pressure_function = DeformedPlaceFunction{[](const Point& initial, const Point& at, double time) {
+      return time * (1.0 + at[0] * at[0] - at[1] * initial[0] + 0.5 * at[2]);
+    }};
   };
   for (const CellType type : bodies) {
     check(type, continuum_of(type), constant);

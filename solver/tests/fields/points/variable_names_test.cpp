@@ -19,6 +19,9 @@ TEST_CASE("a law has as many names as variables", "[fields]") {
       CHECK(static_cast<int>(variable_names(behaviour).size()) == PointLaw(behaviour, false).variable_count());
     }
   }
+  CellBehaviour annealed{Kinematics::logarithmic, Relation::mixed_linear};
+  annealed.restores_hardening = true;
+  CHECK(static_cast<int>(variable_names(annealed).size()) == PointLaw(annealed, false).variable_count());
 }
 
 TEST_CASE("one name stands for other numbers in other cells", "[fields]") {
