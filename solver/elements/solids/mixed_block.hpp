@@ -91,6 +91,17 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
                              double* values) const override {
     assemble(u, state, column_starts, values, &PointLaw::respond_elastically);
   }
+  void add_initial_stiffness(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                             double* values) const override {
+    if (!is_large()) return add_elastic_stiffness(u, state, column_starts, values);
+    const auto at_rest = [&](int element, int g, const Coordinates& x, const Eigen::Matrix3d&, const Fields&) {
+      const Constants constants(*this, element, g, x, state);
+      MixedResponse response = elastic_mixed_response(constants.plastic->bulk, constants.plastic->shear);
+      if (!two_fields()) eliminate_swelling(constants.plastic->bulk, response);
+      return response;
+    };
+    assemble_tangents(Eigen::VectorXd::Zero(u.size()), state, column_starts, values, at_rest);
+  }
 
   void add_internal_forces(const Eigen::VectorXd& u, const VariableState& state, ForceSum forces) const override {
     add_law_forces(u, state, forces, &PointLaw::respond);
@@ -396,9 +407,15 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
 
   void assemble(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
                 double* values, Respond how) const {
+    assemble_tangents(u, state, column_starts, values, law_response(state, how));
+  }
+
+  template <class ResponseAt>
+  void assemble_tangents(const Eigen::VectorXd& u, const VariableState& state, std::span<const int> column_starts,
+                         double* values, const ResponseAt& response_at) const {
     for_each_in_batches<Tangent>(
         this->map_.element_count(), this->may_be_concurrent(state),
-        [&](int element, Tangent& tangent) { tangent_of(element, u, state, how, tangent); },
+        [&](int element, Tangent& tangent) { tangent_of(element, u, state, response_at, tangent); },
         [&](int element, const Tangent& tangent) {
           this->map_.add(element, tangent.displacements.data(), column_starts, values);
           unknowns_.add(this->map_.nodes(element), this->dofs_of(element), tangent.coupling.data(), tangent.own.data(),
@@ -406,12 +423,13 @@ class MixedBlock final : public InelasticBlock<Dim, Nodes, Axisymmetric> {
         });
   }
 
-  void tangent_of(int element, const Eigen::VectorXd& u, const VariableState& state, Respond how,
+  template <class ResponseAt>
+  void tangent_of(int element, const Eigen::VectorXd& u, const VariableState& state, const ResponseAt& response_at,
                   Tangent& tangent) const {
     tangent.displacements.setZero();
     tangent.coupling.setZero();
     tangent.own.setZero();
-    each_point_of(element, u, state, law_response(state, how),
+    each_point_of(element, u, state, response_at,
                   [&](int g, const Point& point, const Eigen::Matrix3d& gradient, const MixedResponse& response) {
                     add_point(0.5 * (response.tangent + response.tangent.transpose()), g, point, gradient, tangent);
                     if (!this->law_.has_geometric_part()) return;

@@ -121,6 +121,15 @@ Matrix3d with_volume(const Matrix3d& gradient, double swelling, VolumeMeasure me
   return std::exp(third) * gradient + std::expm1(third) * Matrix3d::Identity();
 }
 
+MixedResponse elastic_mixed_response(double bulk, double shear) {
+  PointResponse law;
+  law.stress.setZero();
+  law.tangent = (Vector6d() << 2, 2, 2, 1, 1, 1).finished().asDiagonal();
+  law.tangent *= shear;
+  law.tangent += (bulk - 2.0 * shear / 3.0) * trace() * trace().transpose();
+  return mixed_response(Matrix3d::Zero(), 0.0, 0.0, law, VolumeMeasure::trace);
+}
+
 double logarithm_slope(double swelling, VolumeMeasure measure) {
   return measure == VolumeMeasure::trace ? 1.0 : logarithm_of(swelling, measure).slope;
 }

@@ -42,6 +42,9 @@ struct MixedResponse {
 MixedResponse mixed_response(const Eigen::Matrix3d& gradient, double swelling, double pressure,
                              const PointResponse& law, VolumeMeasure measure);
 
+/// The same of Hooke's law in small strains, at rest.
+MixedResponse elastic_mixed_response(double bulk, double shear);
+
 /// d(ln J) / d(measure) where the volume is `swelling`.
 double logarithm_slope(double swelling, VolumeMeasure measure);
 

@@ -82,6 +82,15 @@ TEST_CASE("the stiffness of mixed elements is the derivative of their forces") {
   }
 }
 
+TEST_CASE("the elastic stiffness of mixed elements is that of small strains at rest, whatever the strains are") {
+  const Kind kind = GENERATE(from_range(kinds));
+  const Cell large(kind, {Kinematics::logarithmic, Relation::isotropic_linear});
+  const Cell small(kind, {Kinematics::small, Relation::isotropic_linear});
+  const Eigen::MatrixXd expected = small.assembler->stiffness(Eigen::VectorXd::Zero(small.dofs->size()));
+  const Eigen::MatrixXd found = large.assembler->initial_stiffness(large.rough(0.04));
+  CHECK((found - expected).cwiseAbs().maxCoeff() < 1e-12 * expected.cwiseAbs().maxCoeff());
+}
+
 TEST_CASE("a linear displacement, its change of volume and the pressure of that pass the patch test") {
   const Kind kind = GENERATE(from_range(kinds));
   const Cell cell(kind, {}, 0.0);
