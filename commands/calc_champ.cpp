@@ -16,6 +16,7 @@
 #include "solver/fields/data/field_rows.hpp"
 #include "solver/fields/data/row_functions.hpp"
 #include "solver/fields/field_computation.hpp"
+#include "solver/fields/points/extrapolation.hpp"
 
 namespace comma::commands {
 
@@ -118,6 +119,29 @@ void warn_of_empty_field(const std::string& name, const Call& call, Context& con
       "bars and beams have SIEF_ELGA, EFGE_ELNO, SIPO_ELNO and SIPM_ELNO, discrete elements SIEF_ELGA and EFGE_ELNO");
 }
 
+// A node has one value, plates have several there.
+void warn_of_plates_left_out(const Call& call, FieldsOfSteps& computation, const solver::ResultStep& step,
+                             std::size_t index, const ChosenCells& cells, Context& context) {
+  const solver::Model& model = *computation.problem().model;
+  if (std::ranges::none_of(model.formulations, solver::is_plate)) return;
+  std::optional<std::span<const int>> chosen;
+  if (cells) chosen = *cells;
+  for (const std::string& name : wanted_fields(call)) {
+    if (!name.ends_with("_NOEU")) continue;
+    const std::string source = name.substr(0, name.size() - 4) + "ELNO";
+    const auto held = step.fields.find(source);
+    const solver::Field at_nodes = held != step.fields.end() ? held->second : computation.compute(source, index);
+    const auto layered = solver::layered_cells(std::get<solver::ElementField>(at_nodes), chosen);
+    if (layered.empty()) continue;
+    context.diagnostics.alarm(
+        "cells-left-out",
+        fmt::format("CALC_CHAMP: {} leaves out {} plates, {} for one, which have several values at a node: their nodes "
+                    "have none",
+                    name, layered.size(), model.mesh->cell_name(layered.front())),
+        call.span, "of plates POST_CHAMP with EXTR_COQUE takes one layer; GROUP_MA names the cells that count");
+  }
+}
+
 // The outermost fibre of a section lies on its outline.
 void warn_of_unknown_outlines(const Call& call, const solver::StaticProblem& problem, const ChosenCells& cells,
                               Context& context) {
@@ -203,6 +227,10 @@ void add_fields(const Call& call, Context& context, ResultConcept& data) {
   for (const std::string& name : empty)
     if (!filled.contains(name)) warn_of_empty_field(name, call, context);
   if (!cells) computation.warn_of_limited_sources(context.diagnostics);
+  const auto chosen_steps = selected_steps(call, data.result);
+  if (!chosen_steps.empty())
+    warn_of_plates_left_out(call, computation, *chosen_steps.front(),
+                            static_cast<std::size_t>(chosen_steps.front() - data.result.steps.data()), cells, context);
   warn_of_unknown_outlines(call, computation.problem(), cells, context);
   warn_of_small_measures(call, computation.problem(), context);
   if (has_total_strains(wanted_fields(call))) warn_of_elastic_thickness(call, computation.problem(), context);

@@ -124,6 +124,7 @@ struct ResultConcept : ConceptData {
   /// What a step was computed from.
   const solver::StaticProblem& problem_of(const solver::ResultStep& step) const;
   std::optional<StepTable> observations;  ///< what OBSERVATION followed through the steps
+  std::optional<StepTable> computed;      ///< PARA_CALC: every step of STAT_NON_LINE, those not kept included
   std::optional<StepTable> modes;         ///< the eigenvalues that CRIT_STAB asked for
 
   /// getTable("PARA_CALC"): a table that the result keeps, None for a name that it does not have. Dicts of lists, one

@@ -10,6 +10,7 @@
 #include "commands/analysis/same_mesh.hpp"
 #include "commands/commands.hpp"
 #include "commands/fields/field_distribution.hpp"
+#include "commands/fields/field_integrals.hpp"
 #include "commands/fields/field_reading.hpp"
 #include "commands/fields/field_types.hpp"
 #include "commands/model/angles.hpp"
@@ -255,120 +256,6 @@ void list_masses(Table& table, const Call& call, Context& context) {
     }
   }
   warn_of_missing_masses(call, problem, counted, context);
-}
-
-// --- integrals
-
-/// Of each cell.
-struct Integrals {
-  solver::ElementField of_field;
-  solver::ElementField of_one;
-};
-
-Integrals integrals_of(const Keywords& occurrence, const FieldSource& source, const solver::Model& model) {
-  const solver::ElementField field = on_elements(source, model);
-  const bool summed = occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
-  const auto* on_cells = std::get_if<solver::ElementField>(&source.field);
-  if (summed && (on_cells == nullptr || on_cells->support != solver::Support::cell)) {
-    throw DiagnosticError("wrong-type",
-                          "POST_ELEM: what is integrated already has one value a cell, and this field has others",
-                          occurrence.span_of("DEJA_INTEGRE"), "leave out DEJA_INTEGRE");
-  }
-  const solver::ElementField volumes = solver::cell_volumes(model);
-  // What has its values at the nodes of cells counts there as its mean.
-  const bool as_mean = on_cells != nullptr && on_cells->support == solver::Support::element_node;
-  if (summed) return {field, volumes};
-  return {solver::integrate_cells(
-              model, as_mean ? solver::brought_to(model, source.field, solver::Support::cell, false) : field),
-          volumes};
-}
-
-// What lies at nodes is known on the skin of the model too.
-Integrals integrals_over_skin(const FieldSource& source, const solver::Model& model, std::span<const int> cells) {
-  solver::NodalField one{"NEUT_R", {"VOL"}, std::vector<double>(source.mesh.nodes.size(), 1.0)};
-  return {solver::integrate_skin(model, std::get<solver::NodalField>(source.field), cells),
-          solver::integrate_skin(model, one, cells)};
-}
-
-// Whether the field has the component at all nodes or points of a cell.
-bool carries(const FieldSource& source, int cell, int component) {
-  if (const auto* nodal = std::get_if<solver::NodalField>(&source.field))
-    return std::ranges::none_of(source.mesh.cell(cell),
-                                [&](int node) { return std::isnan(nodal->at(node, component)); });
-  const auto& field = std::get<solver::ElementField>(source.field);
-  for (int point = 0; point < field.points(cell); ++point)
-    if (std::isnan(field.at(cell, point, component))) return false;
-  return field.points(cell) > 0;
-}
-
-void require_component(const Keywords& occurrence, const FieldSource& source, const Part& part,
-                       const std::string& name) {
-  const int component = component_of(occurrence, solver::components_of(source.field), name);
-  const auto lacks = [&](int cell) { return !carries(source, cell, component); };
-  const auto found = std::ranges::find_if(part.cells, lacks);
-  if (found == part.cells.end()) return;
-  throw DiagnosticError("unknown-component",
-                        fmt::format("POST_ELEM: {} of the {} cells of {} that are integrated over lack {}, {} for one",
-                                    std::ranges::count_if(part.cells, lacks), part.cells.size(), part.name, name,
-                                    source.mesh.cell_name(*found)),
-                        occurrence.span_of("NOM_CMP"), "name the cells that have it by GROUP_MA");
-}
-
-void add_integrals(Table& table, const Call& call, const Keywords& occurrence, const FieldSource& source,
-                   const solver::Model& model, interpreter::Diagnostics& diagnostics) {
-  const bool summed = occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
-  const Integrals inside = integrals_of(occurrence, source, model);
-  for (Part& part : parts_and_union(call, occurrence, source.mesh)) {
-    keep_dimension(part, source.mesh, occurrence.text("TYPE_MAILLE"));
-    if (!summed && part.name != "UNION_GROUP_MA")
-      warn_of_cells_left_out("INTEGRALE", occurrence, part, model, diagnostics);
-    std::vector<int> skin;
-    std::ranges::copy_if(part.cells, std::back_inserter(skin), [&](int cell) { return model.is_skin(cell); });
-    const auto lost = std::ranges::count_if(part.cells, [&](int cell) {
-      return inside.of_field.points(cell) == 0 && !model.is_skin(cell) && model.components_of(cell) != 0;
-    });
-    std::erase_if(part.cells, [&](int cell) { return inside.of_field.points(cell) == 0; });
-    if (lost > 0 && !part.cells.empty())
-      diagnostics.alarm(
-          "limited-field",
-          fmt::format(
-              "POST_ELEM: {} of the cells that are named carry no value of the field, and INTEGRALE leaves them out",
-              lost),
-          occurrence.span, "compute the field on all of them, or name those that have it by GROUP_MA");
-    const bool over_skin =
-        part.cells.empty() && !skin.empty() && std::holds_alternative<solver::NodalField>(source.field);
-    const Integrals integrals = over_skin ? integrals_over_skin(source, model, skin) : inside;
-    if (over_skin) part.cells = skin;
-    if (part.cells.empty()) {
-      throw DiagnosticError("no-element",
-                            fmt::format("POST_ELEM: no cell of dimension {} in {} carries the field",
-                                        occurrence.text("TYPE_MAILLE"), part.name),
-                            occurrence.span, "see that TYPE_MAILLE is the dimension of the model's cells");
-    }
-    Row row = source.columns;
-    if (row.front().first == "RESU") row.erase(row.begin());
-    const double volume = solver::sum_over_cells(integrals.of_one, 0, std::span<const int>(part.cells));
-    row.emplace_back("VOL", volume);
-    const Row place = named_place(part);
-    row.insert(row.end(), place.begin(), place.end());
-    for (const std::string& name : occurrence.texts("NOM_CMP")) {
-      require_component(occurrence, source, part, name);
-      const double total =
-          solver::sum_over_cells(integrals.of_field, component_of(occurrence, integrals.of_field.components, name),
-                                 std::span<const int>(part.cells));
-      row.emplace_back("INTE_" + name, total);
-      row.emplace_back("MOYE_" + name, total / volume);
-    }
-    table.add_row(row);
-  }
-}
-
-void list_integrals(Table& table, const Call& call, interpreter::Diagnostics& diagnostics) {
-  const auto model = model_behind(call);
-  for (const Keywords& occurrence : call.factors("INTEGRALE")) {
-    for (const FieldSource& source : field_sources(with_field(call, occurrence)))
-      add_integrals(table, call, occurrence, source, *model, diagnostics);
-  }
 }
 
 // --- extremes

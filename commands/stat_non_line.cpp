@@ -15,6 +15,7 @@
 #include "commands/analysis/problem_building.hpp"
 #include "commands/analysis/same_mesh.hpp"
 #include "commands/analysis/stability_reading.hpp"
+#include "commands/analysis/step_record.hpp"
 #include "commands/bounds.hpp"
 #include "commands/commands.hpp"
 #include "commands/nearest.hpp"
@@ -327,6 +328,7 @@ Product stat_non_line(const Call& call, Context& context) {
   Observer observer(call, *product);
   if (!observer.empty() && !product->observations) product->observations.emplace();
   Archive archive(call);
+  StepRecorder recorder(call, *product, scene.steps.instants.front());
   std::vector<double> computed;
   solver::IterationReport last;
   const auto iterated = [&last, show = live_table(context)](const solver::IterationReport& report) {
@@ -344,7 +346,9 @@ Product stat_non_line(const Call& call, Context& context) {
     ++number;
     computed.push_back(result.steps.back().instant);
     keep_residuals(last, result.steps.back());
+    recorder.take();
     archive.update(result);
+    product->computed->end_step(result.steps.back().order);
     if (product->observations) product->observations->end_step(result.steps.back().order);
   };
   std::set<double> unconverged;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "commands/loads/framed_forces.hpp"
 #include "commands/selection.hpp"
 #include "solver/mesh/orientation.hpp"
 #include "solver/model/component.hpp"
@@ -158,11 +159,6 @@ std::vector<int> places_of(const ForceKeyword& keyword, const Keywords& force, c
   return cells;
 }
 
-// PRES of FORCE_COQUE is F3 against the normal.
-std::string name_of_part(const ForceKeyword& keyword, const std::string& name) {
-  return std::string_view(keyword.name) == "FORCE_COQUE" && name == "PRES" ? "F3" : name;
-}
-
 // What replaces what other occurrences give: the number or function of a component; of keywords that count whole,
 // anything.
 std::vector<std::pair<std::string, const interpreter::Keyword*>> overloading_parts(const ForceKeyword& keyword,
@@ -171,7 +167,7 @@ std::vector<std::pair<std::string, const interpreter::Keyword*>> overloading_par
   std::vector<std::pair<std::string, const interpreter::Keyword*>> parts;
   for (const interpreter::Keyword& item : force.items)
     if (item.given && (item.value.is_concept() || item.value.is_number()))
-      parts.emplace_back(name_of_part(keyword, item.name), &item);
+      parts.emplace_back(place_of_force(keyword.name, item.name), &item);
   return parts;
 }
 
@@ -189,7 +185,8 @@ void warn_of_overridden_forces(const Call& call, const ForceKeyword& keyword, co
         const interpreter::Keyword* before = std::exchange(known->second, item);
         if (before != nullptr && before->name == item->name && is_same_amount(*before, *item)) continue;
         ++found.count;
-        if (found.example.empty()) found.example = fmt::format("{} at {}", name, place_name(keyword, target, place));
+        if (found.example.empty())
+          found.example = fmt::format("{} at {}", before ? before->name : name, place_name(keyword, target, place));
       }
     }
   }
@@ -197,29 +194,41 @@ void warn_of_overridden_forces(const Call& call, const ForceKeyword& keyword, co
           context);
 }
 
-// Forces of a beam or plate in own axes replace those in the axes of the mesh, and the other way round; those of a
-// plate at one level those at another.
-void warn_of_other_axes(const Call& call, const char* keyword, const LoadedModel& target, Context& context) {
-  std::map<int, std::pair<bool, std::string>> frames;
-  Overriding found{keyword};
-  for (const Keywords& force : call.factors(keyword)) {
-    const std::pair frame(is_in_own_axes(force), force.has("PLAN") ? force.text("PLAN") : std::string());
+// What reads a number as another one than it was written as.
+void warn_of_mixed_axes(const Call& call, const char* keyword, const LoadedModel& target, Context& context) {
+  if (call.factors(keyword).size() < 2) return;
+  std::ptrdiff_t count = 0;
+  std::pair<int, FramedForce> first;
+  for (const auto& [cell, force] : framed_forces(call, keyword, target))
+    if (force.is_mixed() && count++ == 0) first = {cell, force};
+  if (count == 0) return;
+  const bool presses = first.second.frame == ForceFrame::pressure,
+             is_beam = std::string_view(keyword) == "FORCE_POUTRE";
+  const std::string reading = presses   ? "PRES alone counts there, F3 and FZ as PRES"
+                              : is_beam ? "all of them count in own axes there, FX as N, FY as VY, MX as MT"
+                                        : "all of them count in own axes there, FX as F1, FY as F2, FZ and PRES as F3";
+  context.diagnostics.alarm(
+      "mixed-axes",
+      fmt::format("{}: forces on {} of the cells are given in several axes, on {} for one: {} (as in Code_Aster 17.3)",
+                  keyword, count, target.mesh.cell_name(first.first), reading),
+      call.factors(keyword).back().span, "put forces in other axes into a load of their own");
+}
+
+// The level of the last occurrence is that of all forces on the plate.
+void warn_of_other_levels(const Call& call, const LoadedModel& target, Context& context) {
+  std::map<int, std::string> levels;
+  Overriding found{"FORCE_COQUE"};
+  for (const Keywords& force : call.factors("FORCE_COQUE"))
     for (const int cell : selected_cells(force, target.mesh)) {
-      if (!is_loaded(target, cell)) continue;
-      const auto [known, is_first] = frames.try_emplace(cell, frame);
-      const auto before = std::exchange(known->second, frame);
-      if (is_first || before == frame) continue;
+      if (!is_plate(target, cell)) continue;
+      const auto [known, is_first] = levels.try_emplace(cell, force.text("PLAN"));
+      const std::string before = std::exchange(known->second, force.text("PLAN"));
+      if (before == known->second) continue;
       ++found.count;
-      if (!found.example.empty()) continue;
-      const std::string level =
-          before.second == frame.second ? std::string() : fmt::format(" at PLAN='{}'", before.second);
-      found.example = fmt::format("the force in {} axes{} on {}", before.first ? "own" : "global", level,
-                                  target.mesh.cell_name(cell));
+      if (found.example.empty()) found.example = fmt::format("PLAN='{}' at {}", before, target.mesh.cell_name(cell));
     }
-  }
-  if (found.count > 0)
-    warn_of(found, call.factors(keyword).back().span, "where they are meant to add up, put them into two loads",
-            context);
+  warn_of(found, call.factors("FORCE_COQUE").empty() ? call.span : call.factors("FORCE_COQUE").back().span,
+          "where they are meant to add up, put them into two loads", context);
 }
 
 }  // namespace
@@ -235,7 +244,8 @@ void warn_of(const Overriding& found, const interpreter::Span& at, const char* h
 
 void warn_of_loads(const Call& call, const LoadedModel& target, Context& context) {
   for (const ForceKeyword& keyword : overloaded_forces) warn_of_overridden_forces(call, keyword, target, context);
-  for (const char* keyword : {"FORCE_POUTRE", "FORCE_COQUE"}) warn_of_other_axes(call, keyword, target, context);
+  for (const char* keyword : {"FORCE_POUTRE", "FORCE_COQUE"}) warn_of_mixed_axes(call, keyword, target, context);
+  warn_of_other_levels(call, target, context);
   check_normals(call, target, context);
   warn_of_lost_forces(call, target, context);
   warn_of_weight_out_of_plane(call, target, context);

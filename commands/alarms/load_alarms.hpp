@@ -19,7 +19,7 @@ struct Overriding {
 /// Alarm `overridden-value`, if there is one.
 void warn_of(const Overriding& found, const interpreter::Span& at, const char* hint, Context& context);
 
-/// Of a call of AFFE_CHAR_MECA: alarms `overridden-value`, `inward-normal`, `lost-force`.
+/// Of a call of AFFE_CHAR_MECA: alarms `overridden-value`, `mixed-axes`, `inward-surface`, `lost-force`.
 void warn_of_loads(const Call& call, const LoadedModel& target, Context& context);
 
 }  // namespace comma::commands

@@ -267,7 +267,7 @@ std::shared_ptr<ResultConcept> to_go_on_with(const Call& call, std::optional<int
   auto& steps = product->result.steps;
   if (last_order) {
     std::erase_if(steps, [&](const solver::ResultStep& step) { return step.order > *last_order; });
-    for (std::optional<StepTable>* kept : {&product->observations, &product->modes})
+    for (std::optional<StepTable>* kept : {&product->computed, &product->observations, &product->modes})
       if (*kept) (*kept)->forget_after(*last_order);
   }
   if (steps.empty()) return product;

@@ -63,6 +63,10 @@ std::vector<int> loadable_cells(const interpreter::Keywords& keywords, const Loa
 /// Of a force that is given in turned axes: the component along a direction, a sum of those given.
 Amount component_of_turned(const std::array<Amount, 3>& given, const Eigen::Vector3d& direction);
 
+/// FORCE_COQUE.
+void add_plate_forces(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
+/// FORCE_POUTRE.
+void add_beam_forces(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
 /// FORCE_NODALE.
 void add_nodal_forces(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
 /// VECT_ASSE: a vector of forces that a field on nodes holds.

@@ -1,4 +1,4 @@
-// Forces of AFFE_CHAR_MECA on skins, volumes, plates and beams.
+// Forces of AFFE_CHAR_MECA on skins and volumes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,7 +10,6 @@
 #include "commands/loads/load_building.hpp"
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
-#include "solver/elements/slender/slender_forces.hpp"
 #include "solver/loads/end_effect.hpp"
 #include "solver/loads/plate_moments.hpp"
 
@@ -107,90 +106,6 @@ void add_distributed_forces(const Keywords& call, const LoadedModel& target, sol
   }
 }
 
-solver::PlateLevel level_of(const Keywords& occurrence) {
-  const std::string plane = occurrence.text("PLAN");
-  if (plane == "SUP") return solver::PlateLevel::upper;
-  if (plane == "INF") return solver::PlateLevel::lower;
-  return plane == "MOY" ? solver::PlateLevel::middle : solver::PlateLevel::mesh;
-}
-
-constexpr std::array<const char*, 6> global_plate_forces = {"FX", "FY", "FZ", "MX", "MY", "MZ"};
-constexpr std::array<const char*, 6> own_plate_forces = {"F1", "F2", "F3", "MF1", "MF2", ""};
-
-// Whether the section of the plate says what the force is: its axes, or its thickness.
-bool asks_for_section(const Keywords& occurrence) {
-  if (occurrence.given("PRES")) return false;
-  const bool along = std::ranges::any_of(std::array{"F1", "F2", "MF1", "MF2"},
-                                         [&](const char* name) { return occurrence.given(name); });
-  return along || (level_of(occurrence) != solver::PlateLevel::mesh && !occurrence.given("F3"));
-}
-
-// Forces given in other axes or at another level than before replace those entirely.
-void take_plate_force(const Keywords& occurrence, int cell, ByCell<solver::PlateForce>& forces) {
-  const bool own =
-      std::ranges::any_of(own_plate_forces, [&](const char* name) { return *name != '\0' && occurrence.given(name); });
-  const solver::PlateLevel level = level_of(occurrence);
-  solver::PlateForce& force = forces[cell];
-  if (force.in_own_axes != own || force.level != level) force = {};
-  force.cell = cell;
-  force.in_own_axes = own;
-  force.level = level;
-  override_given(given_amounts(occurrence, own ? own_plate_forces : global_plate_forces), force.force, force.functions);
-}
-
-// FORCE_COQUE: tractions and moments along the axes of the mesh, those of the plate, or across it. PRES acts against
-// the normal, F3 along it (U4.44.01).
-void add_plate_forces(const Keywords& call, const LoadedModel& target, solver::Load& load) {
-  ByCell<solver::DistributedForce> forces;
-  ByCell<solver::PlateMoment> moments;
-  ByCell<solver::PressureLoad> pressures;
-  ByCell<solver::PlateForce> of_sections;
-  for (const Keywords& occurrence : call.factors("FORCE_COQUE")) {
-    const auto amounts = given_amounts<3>(occurrence, {"FX", "FY", "FZ"});
-    const auto turning = given_amounts<3>(occurrence, {"MX", "MY", "MZ"});
-    const bool pressed = occurrence.given("PRES"), pulled = occurrence.given("F3");
-    const Amount across = pulled ? component_of_turned({amount_of(occurrence, "F3")}, -Eigen::Vector3d::UnitX())
-                                 : amount_of(occurrence, "PRES");
-    for (const int cell : loadable_cells(occurrence, target, "FORCE_COQUE", "a plate",
-                                         [&](int each) { return is_plate(target, each); })) {
-      if (asks_for_section(occurrence)) {
-        take_plate_force(occurrence, cell, of_sections);
-        const solver::PlateForce& taken = of_sections[cell];
-        if (pulled || !taken.in_own_axes || taken.level != solver::PlateLevel::mesh) pressures.erase(cell);
-        forces.erase(cell);
-        moments.erase(cell);
-        continue;
-      }
-      const auto section = of_sections.find(cell);
-      const bool joins = section != of_sections.end() && (pressed || pulled) && section->second.in_own_axes &&
-                         section->second.level == solver::PlateLevel::mesh;
-      if (joins) {  // the same axes and level: F3 takes the place of F3
-        const Amount along = component_of_turned({across}, -Eigen::Vector3d::UnitX());
-        std::tie(section->second.force[2], section->second.functions[2]) = std::pair(along.value, along.function);
-        continue;
-      }
-      if (section != of_sections.end()) of_sections.erase(section);
-      if (pressed || pulled) {
-        forces.erase(cell);
-        moments.erase(cell);
-        pressures[cell].cell = cell;
-        std::tie(pressures[cell].pressure, pressures[cell].pressure_function) =
-            std::pair(across.value, across.function);
-        continue;
-      }
-      pressures.erase(cell);
-      forces[cell].cell = cell;
-      override_given(amounts, forces[cell].force, forces[cell].functions);
-      moments[cell].cell = cell;
-      override_given(turning, moments[cell].moment, moments[cell].functions);
-    }
-  }
-  append(load.distributed_forces, std::move(forces));
-  append(load.pressures, std::move(pressures));
-  append(load.plate_forces, std::move(of_sections));
-  append_moments(target, moments, load);
-}
-
 void add_pressures(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   ByCell<solver::PressureLoad> pressures;
   for (const Keywords& occurrence : call.factors("PRES_REP")) {
@@ -230,37 +145,7 @@ void add_end_effects(const Keywords& call, const LoadedModel& target, solver::Lo
   append(load.pressures, std::move(pressures));
 }
 
-constexpr std::array<const char*, 6> global_beam_forces = {"FX", "FY", "FZ", "MX", "MY", "MZ"};
-constexpr std::array<const char*, 6> own_beam_forces = {"N", "VY", "VZ", "MT", "MFY", "MFZ"};
-
-void add_beam_forces(const Keywords& call, const LoadedModel& target, solver::Load& load) {
-  ByCell<solver::BeamForce> forces;
-  for (const Keywords& occurrence : call.factors("FORCE_POUTRE")) {
-    const bool own = is_in_own_axes(occurrence);
-    const auto amounts = given_amounts(occurrence, own ? own_beam_forces : global_beam_forces);
-    const auto axes = own ? solver::BeamAxes::own : solver::BeamAxes::global;
-    const auto can_bear = [&](int cell) {
-      return solver::is_beam(target.model.formulations[cell]) || solver::is_bar(target.model.formulations[cell]);
-    };
-    for (const int cell : loadable_cells(occurrence, target, "FORCE_POUTRE", "a beam or bar", can_bear)) {
-      auto& force = forces[cell];
-      // Forces given in other axes than before replace those entirely.
-      if (force.axes != axes) force = {};
-      force.cell = cell;
-      force.axes = axes;
-      override_given(amounts, force.force, force.functions);
-    }
-  }
-  append(load.beam_forces, std::move(forces));
-}
-
 }  // namespace
-
-bool is_in_own_axes(const Keywords& occurrence) {
-  const auto is_given = [&](const char* name) { return *name != '\0' && occurrence.given(name); };
-  return std::ranges::any_of(own_beam_forces, is_given) || std::ranges::any_of(own_plate_forces, is_given) ||
-         occurrence.given("PRES");
-}
 
 void add_forces_of_fields(const Keywords& call, const LoadedModel& target, solver::Load& load) {
   add_force_vector(call, target, load);

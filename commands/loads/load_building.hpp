@@ -94,9 +94,6 @@ void add_forces_of_fields(const interpreter::Keywords& call, const LoadedModel& 
 /// Forces on nodes, skins, volumes, beams; weight, rotation, initial strains.
 void add_forces(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
 
-/// Whether an occurrence of FORCE_POUTRE or FORCE_COQUE gives forces along the own axes of the beam or plate.
-bool is_in_own_axes(const interpreter::Keywords& occurrence);
-
 /// EVOL_CHAR: pressures and forces that a result holds in time, linear between its instants.
 void add_evolving_loads(const interpreter::Keywords& call, const LoadedModel& target, solver::Load& load);
 

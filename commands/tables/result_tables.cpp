@@ -7,16 +7,34 @@ namespace comma::commands {
 
 namespace {
 
-// One row a step, the initial state (which has no parameters) included.
-Table computation(const ResultConcept& data) {
+std::int64_t number_of_phase(const ResultConcept& data, const solver::ResultStep& step) {
+  return std::ranges::count_if(data.earlier, [&](const EarlierPhase& phase) { return phase.last_order < step.order; });
+}
+
+// Of a result that no computation of several steps has made: one row a step.
+Table parameters_of_steps(const ResultConcept& data) {
   Table table;
   for (const solver::ResultStep& step : data.result.steps) {
-    const auto later =
-        std::ranges::count_if(data.earlier, [&](const EarlierPhase& phase) { return phase.last_order < step.order; });
-    std::vector<std::pair<std::string, Cell>> row = {
-        {"NUME_ORDRE", std::int64_t{step.order}}, {"NUME_REUSE", std::int64_t{later}}, {"INST", step.instant}};
+    Row row = {{"NUME_REUSE", number_of_phase(data, step)}, {"INST", step.instant}};
     for (const auto& [name, value] : step.parameters) row.emplace_back(name, parameter_cell(name, value));
+    row.emplace_back("NUME_ORDRE", std::int64_t{step.order});
     table.add_row(row);
+  }
+  return table;
+}
+
+// One row a step that was computed, the initial state included; NUME_ORDRE of those that are kept.
+Table computation(const ResultConcept& data) {
+  if (!data.computed) return parameters_of_steps(data);
+  Table table = data.computed->table;
+  const auto phase = static_cast<std::size_t>(table.column("NUME_REUSE"));
+  const auto instant = static_cast<std::size_t>(table.column("INST"));
+  const auto order = static_cast<std::size_t>(table.add_column("NUME_ORDRE"));
+  for (auto& row : table.rows) {
+    const auto found = std::ranges::find_if(data.result.steps, [&](const solver::ResultStep& step) {
+      return Cell(step.instant) == row[instant] && Cell(number_of_phase(data, step)) == row[phase];
+    });
+    if (found != data.result.steps.end()) row[order] = std::int64_t{found->order};
   }
   return table;
 }

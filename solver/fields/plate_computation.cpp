@@ -127,19 +127,9 @@ Field FieldComputation::total_strains_at_nodes(std::size_t step) {
   return side_by_side(of_continua, layer_strains_of(to_element_nodes(*problem_.model, whole_plate_forces(step))));
 }
 
-// Over the whole model, of strains and of SIEF, other elements than plates: plates have several values at a node.
 Field FieldComputation::means_at_nodes(const std::string& quantity, std::size_t step,
                                        std::optional<std::span<const int>> cells) {
-  const ElementField& at_nodes = element_field(quantity + "_ELNO", step);
-  static constexpr std::array<std::string_view, 3> beside_plates = {"SIEF", "EPSI", "EPEQ"};
-  if (cells || std::ranges::find(beside_plates, quantity) == beside_plates.end())
-    return nodal_means(result_.mesh(), at_nodes, cells);
-  std::vector<int> others;
-  for (int cell = 0; cell < problem_.model->mesh->cell_count(); ++cell)
-    if (at_nodes.points(cell) > 0 && !is_plate(problem_.model->formulations[static_cast<std::size_t>(cell)]))
-      others.push_back(cell);
-  if (others.empty()) return nodal_means(result_.mesh(), at_nodes);
-  return nodal_means(result_.mesh(), at_nodes, others);
+  return single_valued_means(result_.mesh(), element_field(quantity + "_ELNO", step), cells);
 }
 
 }  // namespace comma::solver

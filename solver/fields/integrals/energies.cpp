@@ -305,6 +305,38 @@ ElementField integrate_skin(const Model& model, const NodalField& field, std::sp
   return result;
 }
 
+ElementField line_lengths(const Mesh& mesh) {
+  ElementField lengths{"NEUT_R", Support::cell, {"VOL"}, {0}, {}};
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    if (mesh.cell_types[cell] == CellType::seg2) {
+      const auto nodes = mesh.cell(cell);
+      lengths.values.push_back(
+          (Eigen::Vector3d(mesh.nodes[nodes[1]].data()) - Eigen::Vector3d(mesh.nodes[nodes[0]].data())).norm());
+    }
+    lengths.starts.push_back(static_cast<int>(lengths.values.size()));
+  }
+  return lengths;
+}
+
+ElementField integrate_lines(const Mesh& mesh, const ElementField& field, std::span<const int> cells) {
+  const std::size_t width = field.components.size();
+  const ElementField lengths = line_lengths(mesh);
+  std::vector<bool> chosen(static_cast<std::size_t>(mesh.cell_count()), false);
+  for (const int cell : cells) chosen[static_cast<std::size_t>(cell)] = true;
+  ElementField result{field.quantity, Support::cell, field.components, {0}, {}};
+  for (int cell = 0; cell < mesh.cell_count(); ++cell) {
+    const int points = field.points(cell);
+    const bool carries = chosen[static_cast<std::size_t>(cell)] && lengths.points(cell) > 0 && points > 0;
+    for (std::size_t c = 0; carries && c < width; ++c) {
+      double sum = 0.0;
+      for (int point = 0; point < points; ++point) sum += field.at(cell, point, static_cast<int>(c));
+      result.values.push_back(lengths.at(cell, 0, 0) * sum / points);
+    }
+    result.starts.push_back(static_cast<int>(result.values.size() / width));
+  }
+  return result;
+}
+
 ElementField cell_volumes(const Model& model) {
   ContinuumPoints points(model);
   ElementField unit{"NEUT_R", Support::cell, {"VOL"}, {0}, {}};

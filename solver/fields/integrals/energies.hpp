@@ -55,6 +55,13 @@ ElementField integrate_cells(const Model& model, const ElementField& field);
 /// The same of a field at nodes over faces or edges: areas or lengths, times r in axisymmetric models.
 ElementField integrate_skin(const Model& model, const NodalField& field, std::span<const int> cells);
 
+/// The same along two-node lines, of a field that is linear between their ends: the length times the mean of the values
+/// of the cell.
+ElementField integrate_lines(const Mesh& mesh, const ElementField& field, std::span<const int> cells);
+
+/// The length of each two-node line (component VOL).
+ElementField line_lengths(const Mesh& mesh);
+
 /// The volume of each continuum cell (component VOL).
 ElementField cell_volumes(const Model& model);
 

@@ -25,14 +25,9 @@ bool is_motion(std::string_view name) {
   return component && static_cast<int>(*component) < motion_count;
 }
 
-/// Displacements and forces of a step, paired by node and component, 0 where either is absent.
-struct Pairs {
-  std::vector<double> displacements, forces;
-};
+}  // namespace
 
-Pairs pairs_of(const ResultStep& step) {
-  const NodalField& displacement = nodal_field(step, "DEPL");
-  const NodalField& force = nodal_field(step, "FORC_NODA");
+RunningWork::Pairs RunningWork::pairs_of(const NodalField& displacement, const NodalField& force) {
   const std::size_t nodes = displacement.values.size() / displacement.components.size();
   Pairs pairs;
   for (std::size_t c = 0; c < displacement.components.size(); ++c) {
@@ -48,22 +43,26 @@ Pairs pairs_of(const ResultStep& step) {
   return pairs;
 }
 
-}  // namespace
+RunningWork::RunningWork(const NodalField& displacement, const NodalField& force, double real)
+    : before_(pairs_of(displacement, force)), work_{0.0, real} {}
+
+ExternalWork RunningWork::add(const NodalField& displacement, const NodalField& force) {
+  Pairs now = pairs_of(displacement, force);
+  if (before_.forces.empty()) before_ = now;
+  work_.elastic = 0.0;
+  for (std::size_t i = 0; i < now.forces.size(); ++i) {
+    work_.elastic += 0.5 * now.forces[i] * now.displacements[i];
+    work_.real += 0.5 * (now.forces[i] + before_.forces[i]) * (now.displacements[i] - before_.displacements[i]);
+  }
+  before_ = std::move(now);
+  return work_;
+}
 
 std::vector<ExternalWork> external_work(const Result& result) {
   std::vector<ExternalWork> works;
-  Pairs before;
-  for (const ResultStep& step : result.steps) {
-    Pairs now = pairs_of(step);
-    if (works.empty()) before = now;
-    ExternalWork work{0.0, works.empty() ? 0.0 : works.back().real};
-    for (std::size_t i = 0; i < now.forces.size(); ++i) {
-      work.elastic += 0.5 * now.forces[i] * now.displacements[i];
-      work.real += 0.5 * (now.forces[i] + before.forces[i]) * (now.displacements[i] - before.displacements[i]);
-    }
-    works.push_back(work);
-    before = std::move(now);
-  }
+  RunningWork work;
+  for (const ResultStep& step : result.steps)
+    works.push_back(work.add(nodal_field(step, "DEPL"), nodal_field(step, "FORC_NODA")));
   return works;
 }
 

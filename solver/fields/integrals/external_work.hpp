@@ -17,4 +17,25 @@ struct ExternalWork {
 };
 std::vector<ExternalWork> external_work(const Result& result);
 
+/// The same step by step, for steps that are not kept.
+class RunningWork {
+ public:
+  /// `real`: what steps before the first one have done.
+  explicit RunningWork(double real = 0.0) : work_{0.0, real} {}
+  /// Goes on from a step that has these fields.
+  RunningWork(const NodalField& displacement, const NodalField& force, double real);
+
+  ExternalWork add(const NodalField& displacement, const NodalField& force);
+
+ private:
+  /// Displacements and forces of the step before, paired by node and component, 0 where either is absent.
+  struct Pairs {
+    std::vector<double> displacements, forces;
+  };
+  static Pairs pairs_of(const NodalField& displacement, const NodalField& force);
+
+  Pairs before_;
+  ExternalWork work_;
+};
+
 }  // namespace comma::solver

@@ -165,21 +165,28 @@ ElementField to_element_nodes(const Model& model, const NodalField& field) {
   return result;
 }
 
-void require_one_value_a_point(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells) {
-  const auto check = [&](int cell) {
-    if (field.points(cell) == 0 || field.values_a_point(cell) == 1) return;
-    throw Error(
-        "layered-field",
-        fmt::format("the field has {} values a point on cell {}, one for each place in the thickness of the plate",
-                    field.values_a_point(cell), mesh.cell_name(cell)),
-        "take one layer: POST_CHAMP with EXTR_COQUE");
+std::vector<int> layered_cells(const ElementField& field, std::optional<std::span<const int>> cells) {
+  std::vector<int> found;
+  if (field.sub_points.empty()) return found;
+  const auto look_at = [&](int cell) {
+    if (field.points(cell) > 0 && field.values_a_point(cell) > 1) found.push_back(cell);
   };
-  if (field.sub_points.empty()) return;
   if (cells) {
-    for (const int cell : *cells) check(cell);
-    return;
+    std::ranges::for_each(*cells, look_at);
+  } else {
+    for (int cell = 0; cell < static_cast<int>(field.sub_points.size()); ++cell) look_at(cell);
   }
-  for (int cell = 0; cell < mesh.cell_count(); ++cell) check(cell);
+  return found;
+}
+
+void require_one_value_a_point(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells) {
+  const std::vector<int> layered = layered_cells(field, cells);
+  if (layered.empty()) return;
+  throw Error(
+      "layered-field",
+      fmt::format("the field has {} values a point on cell {}, one for each place in the thickness of the plate",
+                  field.values_a_point(layered.front()), mesh.cell_name(layered.front())),
+      "take one layer: POST_CHAMP with EXTR_COQUE");
 }
 
 NodalField nodal_means(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells) {
@@ -208,6 +215,28 @@ NodalField nodal_means(const Mesh& mesh, const ElementField& field, std::optiona
     result.values[slot] = counts[slot] > 0 ? result.values[slot] / counts[slot] : absent;
   }
   return result;
+}
+
+NodalField single_valued_means(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells) {
+  const std::vector<int> layered = layered_cells(field, cells);
+  if (layered.empty()) return nodal_means(mesh, field, cells);
+  std::vector<int> others;
+  const auto keep = [&](int cell) {
+    if (field.points(cell) > 0 && field.values_a_point(cell) == 1) others.push_back(cell);
+  };
+  if (cells) {
+    std::ranges::for_each(*cells, keep);
+  } else {
+    for (int cell = 0; cell < mesh.cell_count(); ++cell) keep(cell);
+  }
+  if (others.empty()) require_one_value_a_point(mesh, field, cells);
+  NodalField means = nodal_means(mesh, field, others);
+  const std::size_t width = means.components.size();
+  for (const int cell : layered)
+    for (const int node : mesh.cell(cell))
+      std::fill_n(means.values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(node) * width), width,
+                  absent);
+  return means;
 }
 
 ElementField select_components(const ElementField& field, std::span<const std::string_view> names) {

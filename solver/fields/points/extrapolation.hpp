@@ -29,6 +29,14 @@ ElementField to_element_nodes(const Model& model, const NodalField& field);
 /// `cells` restricts the cells that count; none given: all. Throws what require_one_value_a_point does.
 NodalField nodal_means(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells = {});
 
+/// The same over those of the cells that have one value a point. A node of another one carries nothing, as in Code_Aster
+/// 17.3. Throws Error `layered-field` where all have several.
+NodalField single_valued_means(const Mesh& mesh, const ElementField& field,
+                               std::optional<std::span<const int>> cells = {});
+
+/// Those of the cells (none given: all) where a point has several values.
+std::vector<int> layered_cells(const ElementField& field, std::optional<std::span<const int>> cells = {});
+
 /// Throws Error `layered-field` naming a cell among `cells` (none given: of all) where a point has several values.
 void require_one_value_a_point(const Mesh& mesh, const ElementField& field,
                                std::optional<std::span<const int>> cells = {});

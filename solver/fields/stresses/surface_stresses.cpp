@@ -119,21 +119,25 @@ Eigen::Vector3d first_edge(const Mesh& mesh, int face) {
   return Eigen::Vector3d(mesh.nodes[nodes[0]].data()) - Eigen::Vector3d(mesh.nodes[nodes[1]].data());
 }
 
-/// Both principal directions of a plane tensor [a, b; b, c], of the smaller value first. A direction has no sign of its
-/// own; these are those that Code_Aster's figures have (docs/conformance/fields.md): the second one is (b, value - a),
-/// as the first of the equations (a - value) v1 + b v2 = 0 has it; the first one leans towards the first axis, or away
-/// from the second where that is nearer.
+/// Of stresses, in their own units, as Code_Aster 17.3 has it.
+constexpr double least_difference = 1e-10;
+
+/// Both principal directions of a plane tensor [a, b; b, c], of the smaller value first: (b, value - a), as the first
+/// of the equations (a - value) v1 + b v2 = 0 has them. A direction has no sign of its own; these are those of
+/// Code_Aster 17.3 (docs/conformance/fields.md). Where the value is a but for `least_difference`, it is the other one
+/// turned by -90 degrees.
 std::array<Eigen::Vector2d, 2> principal_directions(double a, double b, double c) {
   const double half = 0.5 * (a - c);
   const double root = std::hypot(half, b);
+  const double farther = std::abs(half) + root;  // of both values from a; the nearer one is b^2 / farther away
+  const bool is_near = b == 0.0 || b * b / farther < least_difference;
   if (half < 0.0) {
-    const Eigen::Vector2d second = Eigen::Vector2d(b, root - half).normalized();
-    return {Eigen::Vector2d(second[1], -second[0]), second};
+    const Eigen::Vector2d second = Eigen::Vector2d(b, farther).normalized();
+    return {(is_near || b > 0.0 ? 1.0 : -1.0) * Eigen::Vector2d(second[1], -second[0]), second};
   }
-  // The larger value less a, without cancellation.
-  const Eigen::Vector2d second =
-      b == 0.0 ? Eigen::Vector2d::UnitX().eval() : Eigen::Vector2d(b, b * (b / (half + root))).normalized();
-  return {Eigen::Vector2d(second[0] > 0.0 ? second[1] : -second[1], -std::abs(second[0])), second};
+  const Eigen::Vector2d first =
+      farther > 0.0 ? Eigen::Vector2d(b, -farther).normalized() : Eigen::Vector2d(-Eigen::Vector2d::UnitY());
+  return {first, (is_near || b < 0.0 ? 1.0 : -1.0) * Eigen::Vector2d(first[1], -first[0])};
 }
 
 /// `edge`: the first edge of the face, from its second node to its first.

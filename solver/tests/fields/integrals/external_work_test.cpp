@@ -46,3 +46,17 @@ TEST_CASE("without nodal forces there is no work to tell", "[fields]") {
   result.steps[0].fields.erase("FORC_NODA");
   CHECK_THROWS_AS(external_work(result), Error);
 }
+
+TEST_CASE("work goes on from what a computation before has done", "[fields]") {
+  const auto fields = [](double u, double force) {
+    ResultStep made = step(0, u, force);
+    return std::pair(std::get<NodalField>(made.fields.at("DEPL")), std::get<NodalField>(made.fields.at("FORC_NODA")));
+  };
+  const auto [u1, f1] = fields(2.0, 6.0);
+  const auto [u2, f2] = fields(3.0, 8.0);
+  RunningWork from_step(u1, f1, 6.0);
+  CHECK(from_step.add(u2, f2).real == exactly(6.0 + 7.0));
+  RunningWork from_work(6.0);
+  CHECK(from_work.add(u1, f1).real == exactly(6.0));
+  CHECK(from_work.add(u2, f2).real == exactly(6.0 + 7.0));
+}

@@ -96,6 +96,23 @@ TEST_CASE("nodal values are the arithmetic mean over the cells that count", "[fi
   CHECK(nodal_means(mesh, field, only).at(1, 0) == 4);
 }
 
+TEST_CASE("means leave out cells with several values a point, and carry nothing at their nodes", "[fields]") {
+  Mesh mesh;
+  mesh.nodes = {{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+  for (int i = 0; i < 3; ++i) mesh.add_cell(CellType::seg2, std::array{i, i + 1});
+  // Two layers on the last cell, which has the third node in common with the second.
+  const ElementField field{"SIEF_R",     Support::element_node,        {"SIXX"},
+                           {0, 2, 4, 8}, {1, 2, 4, 6, 10, 11, 12, 13}, {1, 1, 2}};
+  CHECK(layered_cells(field) == std::vector{2});
+  const NodalField means = single_valued_means(mesh, field);
+  CHECK(means.at(0, 0) == 1);
+  CHECK(means.at(1, 0) == 3);
+  CHECK(std::isnan(means.at(2, 0)));
+  CHECK(std::isnan(means.at(3, 0)));
+  CHECK(single_valued_means(mesh, field, std::array{0, 1}).at(2, 0) == 6);
+  CHECK_THROWS_WITH(single_valued_means(mesh, field, std::array{2}), Catch::Contains("M3"));
+}
+
 TEST_CASE("a field with other points than the element's is refused by the name of the cell", "[fields]") {
   const Body body(single_cell(CellType::quad8), Formulation::plane_strain, elastic(1, 0.3));
   const ElementField field{"SIEF_R", Support::gauss_point, {"SIXX"}, {0, 3}, {1, 2, 3}};
