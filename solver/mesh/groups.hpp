@@ -59,10 +59,10 @@ std::vector<int> nodes_on_plane(const Mesh& mesh, const Point& point, const Poin
 
 /// The nodes of line cells in the order in which one passes them, middle nodes between their ends. An open line is
 /// walked from `start` to `end`, either of which may be left out (without both: from the end that a cell begins with,
-/// the first such in the mesh, else from the first end that a cell ends with, as Code_Aster 17.3 does); a closed one from `start` (else the first node of the
-/// first cell) round, its first step the one closer to `direction` (else along the first cell), each node once. Throws
-/// Error `not-a-line`: no cells, a cell that is not a line, a fork, several pieces, or a start or end that is not an
-/// end of the line.
+/// the first such in the mesh, else from the first end that a cell ends with, as Code_Aster 17.3 does); a closed one
+/// from `start` (else the first node of the first cell) round, its first step the one closer to `direction` (else along
+/// the first cell), each node once. Throws Error `not-a-line`: no cells, a cell that is not a line, a fork, several
+/// pieces, or a start or end that is not an end of the line.
 std::vector<int> nodes_along_line(const Mesh& mesh, std::span<const int> cells, std::optional<int> start = {},
                                   std::optional<int> end = {}, std::optional<Point> direction = {});
 

@@ -29,8 +29,8 @@ ElementField to_element_nodes(const Model& model, const NodalField& field);
 /// `cells` restricts the cells that count; none given: all. Throws what require_one_value_a_point does.
 NodalField nodal_means(const Mesh& mesh, const ElementField& field, std::optional<std::span<const int>> cells = {});
 
-/// The same over those of the cells that have one value a point. A node of another one carries nothing, as in Code_Aster
-/// 17.3. Throws Error `layered-field` where all have several.
+/// The same over those of the cells that have one value a point. A node of another one carries nothing, as in
+/// Code_Aster 17.3. Throws Error `layered-field` where all have several.
 NodalField single_valued_means(const Mesh& mesh, const ElementField& field,
                                std::optional<std::span<const int>> cells = {});
 
