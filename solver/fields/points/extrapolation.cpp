@@ -165,17 +165,26 @@ ElementField to_element_nodes(const Model& model, const NodalField& field) {
   return result;
 }
 
+namespace {
+
+/// visit(cell) for those of the cells, or for all where none are given.
+template <class Visit>
+void each_cell(const ElementField& field, const std::optional<std::span<const int>>& cells, Visit&& visit) {
+  if (cells) {
+    for (const int cell : *cells) visit(cell);
+    return;
+  }
+  for (int cell = 0; cell + 1 < static_cast<int>(field.starts.size()); ++cell) visit(cell);
+}
+
+}  // namespace
+
 std::vector<int> layered_cells(const ElementField& field, std::optional<std::span<const int>> cells) {
   std::vector<int> found;
   if (field.sub_points.empty()) return found;
-  const auto look_at = [&](int cell) {
+  each_cell(field, cells, [&](int cell) {
     if (field.points(cell) > 0 && field.values_a_point(cell) > 1) found.push_back(cell);
-  };
-  if (cells) {
-    std::ranges::for_each(*cells, look_at);
-  } else {
-    for (int cell = 0; cell < static_cast<int>(field.sub_points.size()); ++cell) look_at(cell);
-  }
+  });
   return found;
 }
 
@@ -194,7 +203,7 @@ NodalField nodal_means(const Mesh& mesh, const ElementField& field, std::optiona
   const std::size_t width = field.components.size();
   NodalField result{field.quantity, field.components, std::vector<double>(mesh.nodes.size() * width, 0.0)};
   std::vector<int> counts(result.values.size(), 0);
-  const auto add = [&](int cell) {
+  each_cell(field, cells, [&](int cell) {
     const auto nodes = mesh.cell(cell);
     for (int point = 0; point < field.points(cell); ++point) {
       for (std::size_t c = 0; c < width; ++c) {
@@ -205,12 +214,7 @@ NodalField nodal_means(const Mesh& mesh, const ElementField& field, std::optiona
         ++counts[slot];
       }
     }
-  };
-  if (cells) {
-    for (const int cell : *cells) add(cell);
-  } else {
-    for (int cell = 0; cell < mesh.cell_count(); ++cell) add(cell);
-  }
+  });
   for (std::size_t slot = 0; slot < counts.size(); ++slot) {
     result.values[slot] = counts[slot] > 0 ? result.values[slot] / counts[slot] : absent;
   }
@@ -221,14 +225,9 @@ NodalField single_valued_means(const Mesh& mesh, const ElementField& field, std:
   const std::vector<int> layered = layered_cells(field, cells);
   if (layered.empty()) return nodal_means(mesh, field, cells);
   std::vector<int> others;
-  const auto keep = [&](int cell) {
+  each_cell(field, cells, [&](int cell) {
     if (field.points(cell) > 0 && field.values_a_point(cell) == 1) others.push_back(cell);
-  };
-  if (cells) {
-    std::ranges::for_each(*cells, keep);
-  } else {
-    for (int cell = 0; cell < mesh.cell_count(); ++cell) keep(cell);
-  }
+  });
   if (others.empty()) require_one_value_a_point(mesh, field, cells);
   NodalField means = nodal_means(mesh, field, others);
   const std::size_t width = means.components.size();
