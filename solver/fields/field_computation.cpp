@@ -151,8 +151,6 @@ Field FieldComputation::derive(std::string_view name, std::size_t step, std::opt
     const auto skin = cells ? std::vector<int>(cells->begin(), cells->end()) : skin_cells(*problem_.model);
     return surface_stresses(result_.mesh(), element_field("SIGM_ELNO", step), skin);
   }
-  if (name == "SIPM_ELNO" && cells)
-    return extreme_stresses(input(), on_cells(element_field("EFGE_ELNO", step), *cells));
   if (name == "FORC_NODA" && cells) return internal_forces_of(*cells, step);
   if (name == "REAC_NODA" && cells) return reactions_of(*cells, step);
   if (ends(name, "_NOEU")) return means_at_nodes(quantity, step, cells);
