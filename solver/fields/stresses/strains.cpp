@@ -134,16 +134,17 @@ double bar_strain(const FieldInput& input, int cell, const DisplacementGradients
 ElementField strains(const FieldInput& input, const NodalField& displacement, StrainKind kind) {
   const Mesh& mesh = *input.model.mesh;
   ContinuumPoints points(input.model);
-  bool solid = false, only_bars = false;
+  bool solid = false, has_bars = false, has_continua = false;
   ElementField field{"EPSI_R", Support::gauss_point, {"EPXX", "EPYY", "EPZZ", "EPXY"}, {0}, {}};
   for (int cell = 0; cell < mesh.cell_count(); ++cell) {
     const int own = is_bar(input.model.formulations[cell]) ? 1 : 0;
     const int count = points.covers(cell) ? static_cast<int>(points.samples(cell).size()) : own;
     solid = solid || (count > 0 && dimension(mesh.cell_types[cell]) == 3);
-    if (count > 0) only_bars = own > 0 && (only_bars || field.starts.back() == 0);
+    has_bars = has_bars || own > 0;
+    has_continua = has_continua || (own == 0 && count > 0);
     field.starts.push_back(field.starts.back() + count);
   }
-  if (only_bars) field.components.resize(1);
+  if (has_bars && !has_continua) field.components.resize(1);
   if (solid) field.components.insert(field.components.end(), {"EPXZ", "EPYZ"});
   const std::size_t width = field.components.size();
   field.values.assign(static_cast<std::size_t>(field.starts.back()) * width, absent);
