@@ -7,6 +7,7 @@
 
 #include "commands/selection.hpp"
 #include "interpreter/diagnostic.hpp"
+#include "solver/materials/behaviour/restoration.hpp"
 
 namespace comma::commands {
 
@@ -40,14 +41,13 @@ constexpr std::pair<std::string_view, solver::Kinematics> kinematics[] = {
     {"PETIT_REAC", solver::Kinematics::updated},   {"GROT_GDEP", solver::Kinematics::large_rotations},
 };
 
-// As Code_Aster 17.3: what hardens otherwise has no single strain that could be taken away.
-void require_restorable(const Keywords& keywords) {
-  static constexpr std::string_view restorable[] = {"VMIS_ISOT_LINE", "VMIS_ISOT_TRAC", "VMIS_ECMI_LINE"};
-  const std::string relation = keywords.text("RELATION");
-  if (std::ranges::find(restorable, relation) != std::end(restorable)) return;
+// As Code_Aster 17.3.
+void require_restorable(const Keywords& keywords, solver::Relation relation) {
+  if (solver::may_be_restored(relation)) return;
   throw interpreter::DiagnosticError(
       "unsupported",
-      fmt::format("COMPORTEMENT: POST_INCR='REST_ECRO' does not restore the hardening of RELATION='{}'", relation),
+      fmt::format("COMPORTEMENT: POST_INCR='REST_ECRO' does not restore the hardening of RELATION='{}'",
+                  keywords.text("RELATION")),
       keywords.span_of("POST_INCR"), "it goes with VMIS_ISOT_LINE, VMIS_ISOT_TRAC and VMIS_ECMI_LINE");
 }
 
@@ -77,7 +77,7 @@ solver::CellBehaviour behaviour_of(const Keywords& keywords) {
   for (const char* const name : {"RESI_INTE", "RESI_INTE_RELA"})
     if (keywords.has(name)) behaviour.return_tolerance = keywords.real(name);
   if (keywords.has("POST_INCR")) {
-    require_restorable(keywords);
+    require_restorable(keywords, relation->second);
     behaviour.restores_hardening = true;
   }
   return behaviour;

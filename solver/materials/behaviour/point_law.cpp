@@ -31,12 +31,6 @@ bool moves(Relation relation) {
          relation == Relation::mixed_traction;
 }
 
-/// Whether annealing can take its hardening away.
-bool may_be_restored(Relation relation) {
-  return relation == Relation::isotropic_linear || relation == Relation::isotropic_traction ||
-         relation == Relation::mixed_linear;
-}
-
 /// As tensor components.
 Vector6d elastic_strain(const Vector6d& stress, const PlasticModuli& moduli) {
   const double pressure = stress.head<3>().sum() / 3.0;

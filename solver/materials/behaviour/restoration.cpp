@@ -25,6 +25,11 @@ double at_least_zero(const Property& property, const MaterialPoint& at, std::str
 
 }  // namespace
 
+bool may_be_restored(Relation relation) {
+  return relation == Relation::isotropic_linear || relation == Relation::isotropic_traction ||
+         relation == Relation::mixed_linear;
+}
+
 Hardened restored(const HardeningRestoration& restoration, const MaterialPoint& at, double time, Hardened hardened) {
   const double temperature = at[Parameter::temperature];
   if (std::isnan(temperature))

@@ -3,8 +3,13 @@
 
 #include "solver/materials/plasticity.hpp"
 #include "solver/materials/property.hpp"
+#include "solver/model/behaviour.hpp"
 
 namespace comma::solver {
+
+/// Whether annealing can take the hardening of a law away: VMIS_ISOT_LINE, VMIS_ISOT_TRAC, VMIS_ECMI_LINE. What hardens
+/// otherwise has no single strain that could be taken away.
+bool may_be_restored(Relation relation);
 
 /// The cumulated plastic strain by which a point has hardened.
 struct Hardened {
