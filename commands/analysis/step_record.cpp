@@ -1,8 +1,5 @@
 #include "commands/analysis/step_record.hpp"
 
-#include <array>
-#include <utility>
-
 #include "commands/tables/result_tables.hpp"
 #include "solver/fields/field_computation.hpp"
 

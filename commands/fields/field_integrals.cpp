@@ -32,9 +32,13 @@ struct Integrals {
   solver::ElementField of_one;
 };
 
+bool is_integrated(const Keywords& occurrence) {
+  return occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
+}
+
 Integrals integrals_of(const Keywords& occurrence, const FieldSource& source, const solver::Model& model) {
   const solver::ElementField field = on_elements(source, model);
-  const bool summed = occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
+  const bool summed = is_integrated(occurrence);
   const auto* on_cells = std::get_if<solver::ElementField>(&source.field);
   if (summed && (on_cells == nullptr || on_cells->support != solver::Support::cell)) {
     throw DiagnosticError("wrong-type",
@@ -73,12 +77,14 @@ Integrals integrals_along_beams(const Keywords& occurrence, const FieldSource& s
   return {solver::integrate_lines(*model.mesh, on_elements(source, model), beams), solver::line_lengths(*model.mesh)};
 }
 
-// Those of the part that are integrated along, where lines are asked for.
-std::vector<int> beams_of(const Part& part, const Keywords& occurrence, const solver::Model& model) {
-  std::vector<int> beams;
-  if (occurrence.text("TYPE_MAILLE") == "1D")
-    std::ranges::copy_if(part.cells, std::back_inserter(beams),
-                         [&](int cell) { return solver::is_beam(model.formulations[static_cast<std::size_t>(cell)]); });
+// Takes out of the part the beams that are integrated along, where lines are asked for.
+std::vector<int> take_beams(Part& part, const Keywords& occurrence, const solver::Model& model) {
+  if (occurrence.text("TYPE_MAILLE") != "1D") return {};
+  const auto first = std::ranges::stable_partition(part.cells, [&](int cell) {
+                       return !solver::is_beam(model.formulations[static_cast<std::size_t>(cell)]);
+                     }).begin();
+  std::vector<int> beams(first, part.cells.end());
+  part.cells.erase(first, part.cells.end());
   return beams;
 }
 
@@ -125,13 +131,11 @@ void keep_carriers(Part& part, const Keywords& occurrence, const solver::Element
 // The integrals that count for the part, whose cells become those integrated over: bodies, else skin, else beams.
 Integrals take_integrals(Part& part, const Integrals& inside, const Keywords& occurrence, const FieldSource& source,
                          const solver::Model& model, interpreter::Diagnostics& diagnostics) {
-  const bool summed = occurrence.has("DEJA_INTEGRE") && occurrence.text("DEJA_INTEGRE") == "OUI";
+  const bool summed = is_integrated(occurrence);
   keep_dimension(part, source.mesh, occurrence.text("TYPE_MAILLE"));
-  const std::vector<int> named = part.cells;
   std::vector<int> skin;
-  std::ranges::copy_if(named, std::back_inserter(skin), [&](int cell) { return model.is_skin(cell); });
-  const std::vector<int> beams = summed || !skin.empty() ? std::vector<int>() : beams_of(part, occurrence, model);
-  std::erase_if(part.cells, [&](int cell) { return std::ranges::find(beams, cell) != beams.end(); });
+  std::ranges::copy_if(part.cells, std::back_inserter(skin), [&](int cell) { return model.is_skin(cell); });
+  const std::vector<int> beams = summed || !skin.empty() ? std::vector<int>() : take_beams(part, occurrence, model);
   if (!summed && part.name != "UNION_GROUP_MA")
     warn_of_cells_left_out("INTEGRALE", occurrence, part, model, diagnostics);
   if (!beams.empty()) {
